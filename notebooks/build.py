@@ -15,7 +15,9 @@ into the one whose language it names; an English cell is followed by the Chinese
     v[2] = 0.5
 
 Asserts at the top of a code cell, and what draws a picture from its figure to `plt.show()`, go into cells of their own
-after it, whose code is folded away: a reader sees what is computed, and unfolds the rest.
+after it, whose code is folded away: a reader sees what is computed, and unfolds the rest. A cell that tells the answer
+of an exercise says which, `after="49.6.3"`: it is folded away with its outputs, and opened after that exercise. What
+only prepares the rest, imports and names, is marked `setup="yes"`, and folded as well.
 
 In the Chinese text, commas, brackets, quotation marks and the like may be typed as English has them, and a line may
 end anywhere.
@@ -121,6 +123,12 @@ CLAIMS, DRAWING = "# The claims above, checked", "# The picture"
 """The first line of a folded cell."""
 FOLDED = {"jupyter": {"source_hidden": True}, "tags": ["hide-input"], "cellView": "form"}
 """For JupyterLab, for the site, for Colab."""
+AFTER = {"en": "After you have solved {}", "zh": "做完练习 {} 之后再看"}
+"""The heading of what tells the answer of an exercise."""
+SETUP = {"en": "# What the rest needs", "zh": "# 后面要用的准备"}
+"""The first line of a cell that prepares."""
+FOLDED_AFTER = {**FOLDED, "jupyter": {"source_hidden": True, "outputs_hidden": True}, "tags": ["hide-cell"]}
+"""The same, with the outputs."""
 DRAWS = re.compile(r"\b(plt|plot|ax|axes|axis|figure|fig|picture)\b")
 
 
@@ -166,8 +174,8 @@ WORDS = HERE / "source" / "zh.toml"
 PLACES = {"loc", "ha", "va", "layout", "textcoords"}
 """Keywords whose words are matplotlib's."""
 PROSE = re.compile(r"(?<![\w.(])[A-Za-z]{2,}[,:;]? \(?[a-z]{2,}(?![\w(.=\[])")
-CHECK = re.compile(r"^(tw\.exercises\.check\(.*)\)$", re.MULTILINE)
-"""The check of an exercise, which answers in the notebook's language and not in that of the machine."""
+CHECK = re.compile(r"^((?:\w+ = )?tw\.(?:exercises\.check|ask)\(.*)\)$", re.MULTILINE)
+"""A question, or the check of an exercise: it answers in the notebook's language and not in that of the machine."""
 CHINESE_FIGURES = "tw.plot.chinese()  # 图中可以写汉字"
 
 
@@ -223,12 +231,21 @@ def build(source: Path, language: str) -> str:
     words = tomllib.loads(WORDS.read_text(encoding="utf-8")) if WORDS.exists() else {}
     own = words.get("all", {}) | words.get(source.stem, {})
     for cell in cells(source):
-        if cell.cell_type == "code":
+        head = AFTER[language].format(cell.metadata.get("after"))
+        if cell.cell_type == "code" and "after" in cell.metadata:
+            code = in_chinese(cell.source, own) if language == "zh" else cell.source
+            notebook.cells.append(nbformat.v4.new_code_cell(f"# {head}\n{code}", metadata=FOLDED_AFTER))
+        elif cell.cell_type == "code" and "setup" in cell.metadata:
+            code = in_chinese(cell.source, own) if language == "zh" else cell.source
+            notebook.cells.append(nbformat.v4.new_code_cell(f"{SETUP[language]}\n{code}", metadata=FOLDED))
+        elif cell.cell_type == "code":
             for code, folded in unfolded(cell.source):
                 code = in_chinese(code, own) if language == "zh" else code
                 notebook.cells.append(nbformat.v4.new_code_cell(code, metadata=FOLDED if folded else {}))
         elif cell.metadata["lang"] == language:
             text = chinese(cell.source) if language == "zh" else cell.source
+            if "after" in cell.metadata:
+                text = f"<details>\n<summary>{head}</summary>\n\n{text}\n\n</details>"
             notebook.cells.append(nbformat.v4.new_markdown_cell(text))
     for k, cell in enumerate(notebook.cells):
         cell.id = f"cell-{k:02}"  # the same in every build: only what changed shows in a diff

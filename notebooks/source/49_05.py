@@ -9,15 +9,19 @@
 #
 # 输入 twist,输出动量:$\boldsymbol h = \hat I\,\boldsymbol V$。这个笔记本构造出做这件事的 6 × 6 矩阵,画出它包含的刚体信息,给它换坐标系,把它们相加,再把牛顿方程和欧拉方程写成一个。最后,把一只关节锁死的 Go2 抛向空中。
 # %%
-import matplotlib.pyplot as plt
-import numpy as np
-
 import twistwrench as tw
-from twistwrench import plot
 
 model = tw.load("go2")
 q = model.standing()
+# %% setup="yes"
+import matplotlib.pyplot as plt
+import numpy as np
+
+from twistwrench import plot
+
 rng = np.random.default_rng(5)
+
+
 # %% [markdown] lang="en"
 # ## From ten numbers to a matrix
 #
@@ -26,11 +30,7 @@ rng = np.random.default_rng(5)
 # $\boldsymbol v_C = \boldsymbol v + \boldsymbol\omega \times \boldsymbol c$. So its linear momentum is
 # $\boldsymbol p = m \boldsymbol v_C$, and its angular momentum about $O$ is
 # $\boldsymbol L_O = I_c \boldsymbol\omega + \boldsymbol c \times \boldsymbol p$. Collect what multiplies
-# $\boldsymbol\omega$ and what multiplies $\boldsymbol v$:
-#
-# $$\begin{pmatrix} \boldsymbol L_O \\ \boldsymbol p \end{pmatrix} =
-# \begin{pmatrix} I_c - m[\boldsymbol c]_\times^2 & m[\boldsymbol c]_\times \\ -m[\boldsymbol c]_\times & m\,1 \end{pmatrix}
-# \begin{pmatrix} \boldsymbol\omega \\ \boldsymbol v \end{pmatrix}.$$
+# $\boldsymbol\omega$ and what multiplies $\boldsymbol v$: that is the matrix.
 # %% [markdown] lang="zh"
 # ## 从十个数到一个矩阵
 #
@@ -39,12 +39,28 @@ rng = np.random.default_rng(5)
 # $\boldsymbol v_C = \boldsymbol v + \boldsymbol\omega \times \boldsymbol c$,所以线动量是
 # $\boldsymbol p = m \boldsymbol v_C$,关于 $O$ 的角动量是
 # $\boldsymbol L_O = I_c \boldsymbol\omega + \boldsymbol c \times \boldsymbol p$。把乘 $\boldsymbol\omega$ 的和乘
-# $\boldsymbol v$ 的分别收集起来:
-#
+# $\boldsymbol v$ 的分别收集起来,就得到这个矩阵。
+# %% [markdown] lang="en"
+# **Exercise 49.5.1.** Do it on paper, write the matrix as a function of $m$, $\boldsymbol c$ and $I_c$, and run the cell: it is checked here. The
+# matrix itself comes next, folded.
+# %% [markdown] lang="zh"
+# **练习 49.5.1。** 在纸上收集,把矩阵写成 $m$、$\boldsymbol c$、$I_c$ 的函数,运行单元格当场检查。接下来折叠起来的就是这个矩阵。
+# %%
+def spatial_inertia(m, c, I_c):
+    """Return the spatial inertia of a body about the origin of its frame."""
+    return ...
+
+
+tw.exercises.check("49.5.1", spatial_inertia)
+# %% [markdown] lang="en" after="49.5.1"
 # $$\begin{pmatrix} \boldsymbol L_O \\ \boldsymbol p \end{pmatrix} =
 # \begin{pmatrix} I_c - m[\boldsymbol c]_\times^2 & m[\boldsymbol c]_\times \\ -m[\boldsymbol c]_\times & m\,1 \end{pmatrix}
 # \begin{pmatrix} \boldsymbol\omega \\ \boldsymbol v \end{pmatrix}.$$
-# %%
+# %% [markdown] lang="zh" after="49.5.1"
+# $$\begin{pmatrix} \boldsymbol L_O \\ \boldsymbol p \end{pmatrix} =
+# \begin{pmatrix} I_c - m[\boldsymbol c]_\times^2 & m[\boldsymbol c]_\times \\ -m[\boldsymbol c]_\times & m\,1 \end{pmatrix}
+# \begin{pmatrix} \boldsymbol\omega \\ \boldsymbol v \end{pmatrix}.$$
+# %% after="49.5.1"
 thigh = model.inertia[model.joint_id("FL_thigh_joint")]
 m, c, I_c = thigh.mass, tw.skew(thigh.com), thigh.inertia_at_com
 I = np.block([[I_c - m * c @ c, m * c], [-m * c, m * np.eye(3)]])
@@ -53,12 +69,16 @@ assert np.allclose(thigh.matrix(), I, rtol=1e-12)
 title = "Î of Go2's front left thigh [kg m², kg m, kg]"
 plot.matrix(I, title, rows=["Lx", "Ly", "Lz", "px", "py", "pz"], columns=plot.ANGULAR_LINEAR, numbers=".2g")
 plt.show()
-# %% [markdown] lang="en"
+# %% [markdown] lang="en" after="49.5.1"
 # Top left the inertia about the *origin*, bottom right the mass, and between them the coupling: with the centre of mass
-# off the origin, turning is also moving. Is it right? Do not ask another formula. A rigid body is a heap of points;
+# off the origin, turning is also moving.
+# %% [markdown] lang="zh" after="49.5.1"
+# 左上是关于*原点*的惯量,右下是质量,中间是耦合:质心不在原点,转动就带着移动。
+# %% [markdown] lang="en"
+# Is it right? Do not ask another formula. A rigid body is a heap of points;
 # take 500 at random and add up what each one has.
 # %% [markdown] lang="zh"
-# 左上是关于*原点*的惯量,右下是质量,中间是耦合:质心不在原点,转动就带着移动。对不对?不要去问另一个公式。
+# 对不对?不要去问另一个公式。
 # 刚体就是一堆质点;随机取 500 个,把每个质点的动量加起来。
 # %%
 masses, points = rng.uniform(0, 0.01, 500), rng.uniform([-0.2, 0, -0.3], [0.2, 0.1, 0.5], (500, 3))
@@ -76,12 +96,17 @@ assert np.isclose(heap.kinetic_energy(V), masses @ (velocities**2).sum(axis=1) /
 assert np.isclose(heap.kinetic_energy(V), V @ heap.matrix() @ V / 2, rtol=1e-12)
 # %% [markdown] lang="en"
 # The matrix is symmetric, and $\boldsymbol V^T \hat I \boldsymbol V$ is twice the kinetic energy. The chapter calls it
-# positive definite. That holds if the mass is positive and $I_c$ is positive definite. A point mass needs no energy to
+# positive definite. Always?
+# %% [markdown] lang="zh"
+# 这个矩阵对称,$\boldsymbol V^T \hat I \boldsymbol V$ 是动能的两倍。本章说它正定。总是这样吗?
+# %%
+tw.ask("49.5-point", ...)
+# %% [markdown] lang="en"
+# It is positive definite if the mass is positive and $I_c$ is positive definite. A point mass needs no energy to
 # turn about itself, and neither does a thin rod to turn about its length: their matrices have rank 3 and 5. All ten
 # numbers can be read back from the 36.
 # %% [markdown] lang="zh"
-# 这个矩阵对称,$\boldsymbol V^T \hat I \boldsymbol V$ 是动能的两倍。本章说它正定:这要求质量为正,而且 $I_c$ 正定。
-# 质点绕自己转不费任何能量,细杆绕自己的长轴转也是:它们的矩阵秩是 3 和 5。十个数都能从 36 个数里读回来。
+# 质量为正、而且 $I_c$ 正定时,它才正定。质点绕自身转动不具有动能,细杆绕自己的长轴转也是:它们的矩阵秩是 3 和 5。十个数都能从 36 个数里读回来。
 # %%
 assert np.linalg.eigvalsh(heap.matrix()).min() > 0
 ball = tw.SpatialInertia(2.0, [0, 0, 0.1], np.zeros((3, 3)))
@@ -93,25 +118,11 @@ again = tw.SpatialInertia.from_matrix(heap.matrix())
 assert np.isclose(again.mass, heap.mass)
 assert np.allclose(again.com, heap.com)
 assert np.allclose(again.inertia_at_com, heap.inertia_at_com)
-
-
-# %% [markdown] lang="en"
-# **Your turn**, exercise 49.5.1: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
-# %% [markdown] lang="zh"
-# **轮到你了**,练习 49.5.1:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
-# %%
-def spatial_inertia(m, c, I_c):
-    """Return the spatial inertia of a body about the origin of its frame."""
-    return ...
-
-
-tw.exercises.check("49.5.1", spatial_inertia)
 # %% [markdown] lang="en"
 # ## What a robot's inertias look like
 #
-# For motion, a body *is* its ten numbers: whatever its shape, a uniform ellipsoid with semi-axes
-# $a_i = \sqrt{5\,(\mathrm{tr}\,I_c - 2 I_i) / 2m}$ behaves just the same. Here is Go2, each link drawn as that ellipsoid.
+# For motion, a body *is* its ten numbers: there is a uniform ellipsoid with the same ten, with semi-axes
+# $a_i = \sqrt{5\,(\mathrm{tr}\,I_c - 2 I_i) / 2m}$, and it moves exactly alike. Here is Go2, each link drawn as that ellipsoid.
 # On the right all joints are locked, and the whole robot is one.
 #
 # To make one body of thirteen takes two steps. First bring each inertia into the frame of the base. The energy must be
@@ -162,20 +173,12 @@ for k in range(2):
 plt.show()
 lengths, _ = plot.semi_axes(locked)
 print("semi-axes of the locked robot", lengths.round(3), "m")
-# %% [markdown] lang="en"
-# Before you read on: how many times harder is it to turn a thin rod about its end than about its middle?
-# %% [markdown] lang="zh"
-# 先想一想:绕端点转动一根细杆,比绕中点转动难多少倍?
 # %%
-guess = "…"  # your number
-# %%
-rod = tw.SpatialInertia(1.0, [0.5, 0, 0], np.diag([1e-6, 1 / 12, 1 / 12]))  # 1 kg, 1 m, seen from its end
-answer = rod.matrix()[2, 2] / (1 / 12)
-print(f"you: {guess}, computed: {answer:.4g} times")
+tw.ask("49.5-roll", ...)
 # %% [markdown] lang="en"
 # An ellipsoid is not the shape of a link, and may stick out of it. But it shows that calves are thin, and that thighs
 # have their mass near the hip, where the motors sit. The chapter says "twelve links": there are thirteen bodies, the
-# base is one. (In Pinocchio's `model.inertias` the base is entry 1; entry 0 is the world.)
+# base is one.
 #
 # ## Parallel axes
 #
@@ -186,7 +189,6 @@ print(f"you: {guess}, computed: {answer:.4g} times")
 # %% [markdown] lang="zh"
 # 椭球不是连杆的外形,可能伸到外面去。但看得出小腿很细,大腿的质量集中在靠近髋的一端,电机就装在那里。
 # 本章说"12 个连杆",其实是十三个刚体,基座也算一个。
-# (在 Pinocchio 的 `model.inertias` 里,基座是第 1 项;第 0 项是世界。)
 #
 # ## 平行轴
 #
@@ -206,17 +208,23 @@ for T in tw.exp6(5 * rng.standard_normal((100, 6))).matrix():
 # %% [markdown] lang="en"
 # ## Which bodies can exist
 #
+# A model file is read, and the matrices of its links are checked by their eigenvalues, as in the chapter.
+# %% [markdown] lang="zh"
+# ## 什么样的刚体可以存在
+#
+# 读入一个模型文件,像本章那样用特征值检查各连杆的矩阵。
+# %%
+tw.ask("49.5-plate", ...)
+# %% [markdown] lang="en"
 # Not every positive definite matrix is a body. The moments are sums over the same points, $I_1 = \sum m(y^2 + z^2)$ and
 # so on, so $I_1 + I_2 - I_3 = 2\sum m z^2$ cannot be negative: the **triangle inequality**. (The same expression is
 # under the root in the formula of the semi-axes.) In the picture each point is a body, by the ratios of its principal
 # moments: bodies exist in the shaded triangle only. `diag(1, 1, 10)` passes the chapter's check for eigenvalues and
 # lies far outside.
 # %% [markdown] lang="zh"
-# ## 什么样的刚体可以存在
-#
-# 正定的矩阵不一定是刚体。各个惯量矩是对同一批质点求和,$I_1 = \sum m(y^2 + z^2)$ 等等,所以
+# 正定的矩阵不一定是刚体。各个转动惯量是对同一批质点求和,$I_1 = \sum m(y^2 + z^2)$ 等等,所以
 # $I_1 + I_2 - I_3 = 2\sum m z^2$ 不会是负的:这就是**三角不等式**。(半轴公式的根号下也是它。)图中每个点是一个刚体,
-# 坐标是主惯量矩之比:只有阴影三角形里的刚体才存在。`diag(1, 1, 10)` 通得过本章的特征值检查,却远在三角形之外。
+# 坐标是主转动惯量之比:只有阴影三角形里的刚体才存在。`diag(1, 1, 10)` 通得过本章的特征值检查,却远在三角形之外。
 # %%
 ax = plot.axes_2d(size=(5.5, 4.2))
 ax.fill([0, 1, 0.5], [1, 1, 0.5], color="0.9")
@@ -239,6 +247,21 @@ except tw.ModelError as error:
     print(error)
 else:
     raise AssertionError("a body that cannot exist has passed")
+
+
+# %% [markdown] lang="en"
+# **Exercise 49.5.3.** What is left of the 6 × 6 matrix in a frame whose origin is the centre of mass? Move it there, $\hat I_A = X^* \hat I_B X^{-1}$,
+# and look; the proof belongs in your folder. (`build` is your `spatial_inertia`, `moved` your `moved_inertia`.)
+# %% [markdown] lang="zh"
+# **练习 49.5.3。** 坐标系原点取在质心时,6 × 6 矩阵还剩什么?用 $\hat I_A = X^* \hat I_B X^{-1}$ 变过去看一看;证明写在你的文件夹里。
+# (`build` 是你的 `spatial_inertia`,`moved` 是你的 `moved_inertia`。)
+# %%
+def about_center_of_mass(m, c, I_c):
+    """Return the inertia of a body in a frame at its centre of mass, with the same axes."""
+    return ...
+
+
+tw.exercises.check("49.5.3", about_center_of_mass)
 # %% [markdown] lang="en"
 # ## Two cross products
 #
@@ -250,9 +273,7 @@ else:
 # [\boldsymbol\omega]_\times \end{pmatrix}, \qquad \boldsymbol V\times^* = -(\boldsymbol V\times)^T =
 # \begin{pmatrix} [\boldsymbol\omega]_\times & [\boldsymbol v]_\times \\ 0 & [\boldsymbol\omega]_\times \end{pmatrix}.$$
 #
-# They are dual because the power is the same in every frame. The chapter calls a check of this "antisymmetry", but
-# neither matrix is antisymmetric. Only the product is: $\boldsymbol V \times \boldsymbol W = -\boldsymbol W \times
-# \boldsymbol V$.
+# They are dual because the power is the same in every frame.
 # %% [markdown] lang="zh"
 # ## 两种空间叉积
 #
@@ -263,8 +284,9 @@ else:
 # [\boldsymbol\omega]_\times \end{pmatrix}, \qquad \boldsymbol V\times^* = -(\boldsymbol V\times)^T =
 # \begin{pmatrix} [\boldsymbol\omega]_\times & [\boldsymbol v]_\times \\ 0 & [\boldsymbol\omega]_\times \end{pmatrix}.$$
 #
-# 二者对偶,理由还是功率相等。注意本章所谓"验证反对称性"并不是这个意思:两个矩阵都不是反对称矩阵。反对称的是乘积:
-# $\boldsymbol V \times \boldsymbol W = -\boldsymbol W \times \boldsymbol V$。
+# 二者对偶,理由还是功率相等。
+# %%
+tw.ask("49.5-antisymmetric", ...)
 # %%
 V, W, F = rng.standard_normal((3, 6))
 cross, dual = tw.cross_motion(V), tw.cross_force(V)
@@ -318,10 +340,15 @@ stone = builder.build()
 assert np.allclose(tw.rnea(stone, stone.neutral(), V, V_dot), one_line, rtol=1e-12)
 # %% [markdown] lang="en"
 # The chapter says that the gyroscopic term $\boldsymbol\omega \times I\boldsymbol\omega$ comes from differentiating in a
-# rotating frame. It is there in the world's axes as well, because the inertia turns with the body:
+# rotating frame.
 # %% [markdown] lang="zh"
-# 本章说陀螺项 $\boldsymbol\omega \times I\boldsymbol\omega$ 来自在旋转坐标系里求导。其实在世界坐标轴里也有它,
-# 因为惯量随刚体一起转:
+# 本章说陀螺项 $\boldsymbol\omega \times I\boldsymbol\omega$ 来自在旋转坐标系里求导。
+# %%
+tw.ask("49.5-gyroscopic", ...)
+# %% [markdown] lang="en"
+# Differentiate the momentum along the axes of the world:
+# %% [markdown] lang="zh"
+# 沿世界坐标轴对动量求导:
 # %%
 turning = tw.exp3(1j * h * w)  # the world's axes stand still; ω is constant, and the body turns
 L = turning @ heap.inertia_at_com @ turning.mT @ w
@@ -330,15 +357,23 @@ assert np.allclose(L.imag / h, np.cross(w, heap.inertia_at_com @ w))
 # ## A Go2 in the air
 #
 # Lock the joints and throw the robot, so that it spins about one of its principal axes at 4 rad/s, with an error of
-# 0.02 rad/s. No moment acts about the centre of mass (gravity has none there), so the momentum in the world is
-# constant. Each step uses exactly this: find the twist at half time, move the body along it with `exp6`, and see the
-# same momentum from the new place, $\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$. All three spins are one batch.
+# 0.02 rad/s.
 # %% [markdown] lang="zh"
 # ## 空中的 Go2
 #
-# 锁死关节,把机器人抛出去,让它绕某一条主轴以 4 rad/s 旋转,外加 0.02 rad/s 的偏差。关于质心没有 wrench 作用
+# 锁死关节,把机器人抛出去,让它绕某一条主轴以 4 rad/s 旋转,外加 0.02 rad/s 的偏差。
+# %%
+flips = tw.ask("49.5-turnover", ...)
+flips
+# %% [markdown] lang="en"
+# No moment acts about the centre of mass (gravity has none there), so the momentum in the world is
+# constant. Each step uses exactly this: find the twist at half time, move the body along it with `exp6`, and see the
+# same momentum from the new place, $\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$. All three spins are one batch. The
+# panel of your guess is grey.
+# %% [markdown] lang="zh"
+# 关于质心没有 wrench 作用
 # (重力对质心没有力矩),所以世界坐标系里的动量保持不变。每一步都利用这一点:先求半步处的 twist,用 `exp6`
-# 沿它移动刚体,再从新的位置看同一个动量,$\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$。三种旋转放在一个 batch 里。
+# 沿它移动刚体,再从新的位置看同一个动量,$\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$。三种旋转作为一批一起计算。你猜的那一格是灰色的。
 # %%
 moments, axes = np.linalg.eigh(locked.inertia_at_com)
 axes *= np.linalg.det(axes)  # right-handed
@@ -375,29 +410,50 @@ names = ["smallest", "middle", "largest"]
 for k, ax in enumerate(panels):
     for j, colour in enumerate(plot.XYZ):
         ax.plot(0.01 * np.arange(1200), twists[:, k, j], color=colour, label=f"ω about the {names[j]}")
+    if flips.letter == "abc"[k]:
+        ax.set_facecolor("0.92")
     ax.set(xlabel="time [s]", title=f"thrown about the {names[k]}, {moments[k]:.3f} kg m²")
 panels[0].set_ylabel("rad/s, in the body's axes")
 panels[0].legend(loc="lower right")
 plt.show()
 assert twists[:, [0, 2], [0, 2]].min() > 3.99  # about the smallest and the largest moment it spins on
 assert twists[:, 1, 1].min() < -3.9  # about the middle one it turns over
+
+
 # %% [markdown] lang="en"
 # Nothing touches the robot: the term $\boldsymbol V\times^* \hat I \boldsymbol V$ alone turns it over, and back.
 # Spinning about the middle axis is possible, but unstable (the intermediate-axis theorem). Try it with your phone.
 #
 # ## Pinocchio agrees
 #
-# Its `Inertia` keeps the same ten numbers; its `matrix()` is in the order $(\boldsymbol v, \boldsymbol\omega)$, with
-# $m\,1$ at the top left. The chapter's last assertion on it fails for this reason. It also takes the impossible body.
+# Its `Inertia` keeps the same ten numbers. The chapter compares `model.inertias[0].matrix()`, as the inertia of the base,
+# entry by entry with its own. Run it. Do you agree?
 # %% [markdown] lang="zh"
 # 没有人碰它:单凭 $\boldsymbol V\times^* \hat I \boldsymbol V$ 就让机器人翻过去又翻回来。绕中间轴旋转是可能的,但不稳定
 # (中间轴定理)。拿手机试试看。
 #
 # ## 与 Pinocchio 对照
 #
-# 它的 `Inertia` 存的是同样的十个数;它的 `matrix()` 按 $(\boldsymbol v, \boldsymbol\omega)$ 排列,$m\,1$ 在左上。
-# 本章对它的最后一条断言就因此失败。它也接受那个不可能存在的刚体。
+# 它的 `Inertia` 存的是同样的十个数。本章取 `model.inertias[0].matrix()` 作为基座的惯量,与自己的结果逐元素比较。
+# 运行一下,你同意吗?
+# %% [markdown] lang="en"
+# **Exercise 49.5.2.** The mass of the base, and its spatial inertia built by hand with your function of 49.5.1, `build(m, c, I_c)`.
+# %% [markdown] lang="zh"
+# **练习 49.5.2。** 给出基座的质量,以及用你在 49.5.1 写的函数 `build(m, c, I_c)` 构造的空间惯量。
 # %%
+def base_inertia(model):
+    """Return the mass of the base and its spatial inertia, built by hand from ten numbers."""
+    return ...
+
+
+tw.exercises.check("49.5.2", base_inertia)
+# %% [markdown] lang="en" after="49.5.2"
+# `matrix()` is in the order $(\boldsymbol v, \boldsymbol\omega)$, with $m\,1$ at the top left, and body 0 is the world: so
+# the chapter's last assertion fails. Pinocchio also takes the impossible body.
+# %% [markdown] lang="zh" after="49.5.2"
+# 它的 `matrix()` 按 $(\boldsymbol v, \boldsymbol\omega)$ 排列,$m\,1$ 在左上,而且第 0 个刚体是世界:所以本章的最后一条断言失败。
+# Pinocchio 也接受那个不可能存在的刚体。
+# %% after="49.5.2"
 try:
     import pinocchio as pin
 except ImportError:

@@ -2,34 +2,45 @@
 # # 49.7 ABA: forward dynamics
 #
 # Given the forces at the joints, how does the robot accelerate? You could build $M$ and solve. The articulated-body
-# algorithm does without $M$. It needs the inertia that each joint has to accelerate when all outboard joints are free: its
-# *apparent inertia*. This notebook shows it, follows the three passes on Go2, and measures how exact the answer is.
+# algorithm does without $M$. At each joint it needs the inertia that the joint feels when everything beyond it is free to
+# move: the *apparent inertia*. This notebook shows it, follows the three passes on Go2, and measures how exact the answer
+# is.
 # %% [markdown] lang="zh"
 # # 49.7 ABA:正向动力学
 #
-# 给定各关节的力,机器人怎样加速?可以构造 $M$ 再求解。铰接体算法不用 $M$:它需要的是:外侧(远离基座)的关节全部自由时,
-# 每个关节要加速的惯量,即*表观惯量*。这个笔记本把它画出来,在 Go2 上走完三遍递推,最后看答案有多准。
+# 给定各关节的力,机器人怎样加速?可以构造 $M$ 再求解。铰接体算法不用 $M$,只需要每个关节在外侧(远离基座)关节全部自由时
+# 所带动的惯量,即*表观惯量*。这个笔记本把它画出来,在 Go2 上走完三遍递推,最后看答案有多准。
 # %%
+import twistwrench as tw
+
+model = tw.load("go2")
+q = model.standing()
+# %% setup="yes"
 import inspect
 
 import matplotlib.pyplot as plt
 import mpmath
 import numpy as np
 
-import twistwrench as tw
 from twistwrench import newton_euler_3d, plot
 from twistwrench.algorithms.aba import articulated_body
 
-model = tw.load("go2")
-q = model.standing()
 rng = np.random.default_rng(7)
 v, tau = rng.standard_normal((2, model.nv))
 rest = np.zeros(model.nv)
 # %% [markdown] lang="en"
 # ## A pendulum in the hand
 #
-# Hold a rod by a hinge at its upper end and move the hinge. The rod follows with
-# $\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$ and takes $\boldsymbol F = \hat I \boldsymbol a$. The hinge is free: it
+# Hold a rod by a hinge at its upper end and move the hinge. Everything is at rest before, and gravity is left out.
+# %% [markdown] lang="zh"
+# ## 手里的单摆
+#
+# 用手通过一个旋转关节握住杆的上端,移动这个关节。起初一切静止,不计重力。
+# %%
+tw.ask("49.7-rod", ...)
+# %% [markdown] lang="en"
+# The rod follows with $\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$ and takes
+# $\boldsymbol F = \hat I \boldsymbol a$. The hinge is free: it
 # transmits nothing along $S$, so $S^T \boldsymbol F = 0$. That gives $\ddot q$, and with it the force of the hand:
 #
 # $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
@@ -38,9 +49,7 @@ rest = np.zeros(model.nv)
 # longer describe it. If you push along the rod, the apparent mass is the whole mass. If you push across it, the rod
 # swings, and the apparent mass of a thin rod is a quarter of its mass.
 # %% [markdown] lang="zh"
-# ## 手里的单摆
-#
-# 用手通过一个旋转关节握住杆的上端,移动这个关节。杆跟着动,$\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$,需要
+# 杆跟着动,$\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$,需要
 # $\boldsymbol F = \hat I \boldsymbol a$。关节是自由的:沿 $S$ 不传递力矩,所以 $S^T \boldsymbol F = 0$。由此得到
 # $\ddot q$,也就知道手要用多大的力:
 #
@@ -172,13 +181,9 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 # - **composite** $\hat I^C$: joints *locked*, one rigid body (49.5). CRBA builds $M$ from it, and $S_i^T \hat I_i^C S_i$
 #   is the entry $M_{ii}$.
 # - **articulated** $\hat I^A$: joints *free*. $D_i = S_i^T \hat I_i^A S_i$ is the apparent inertia at the motor, provided
-#   that the parent body is held. (The motor pushes the parent back with the same torque. If the parent gives way, the
-#   joint accelerates more; you will see by how much below.)
+#   that the parent body is held. (The motor pushes the parent back with the same torque.)
 #
-# Freeing joints can only make the inertia smaller. The picture below has six equal rods. At each hinge, it shows the
-# apparent mass that the previous rod has to move, drawn as above. If all hinges are locked, the circles grow with the
-# number of rods. If all hinges are free, the other five rods add little across the first rod, and much less than their
-# mass along it.
+# Freeing joints can only make the inertia smaller. By how much?
 # %% [markdown] lang="zh"
 # ## 锁死还是自由
 #
@@ -187,9 +192,19 @@ assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on
 # - **复合刚体惯量** $\hat I^C$:关节*锁死*,成为一个刚体(49.5)。CRBA 用它构造 $M$，$S_i^T \hat I_i^C S_i$ 就是元素
 #   $M_{ii}$。
 # - **铰接体惯量** $\hat I^A$:关节*自由*。父连杆固定时,$D_i = S_i^T \hat I_i^A S_i$ 就是电机处的表观惯量。(电机以同样大小的
-#   力矩反推父连杆;父连杆如果退让,关节就加速得更快。下面会看到快多少。)
+#   力矩反推父连杆。)
 #
-# 放开关节只会使惯量变小。下面是六根相同的杆:每个关节处画的是前一根杆所要带动的表观质量,画法同上。关节全部锁死时,
+# 放开关节只会使惯量变小。小多少?
+# %%
+tw.ask("49.7-chain", ...)
+
+
+# %% [markdown] lang="en"
+# The picture has six such rods, bent a little. At each hinge, it shows the apparent mass that the previous rod has to
+# move, drawn as above. If all hinges are locked, the circles grow with the number of rods. If all hinges are free, the
+# other five rods add little across the first rod, and much less than their mass along it.
+# %% [markdown] lang="zh"
+# 下面是六根这样的杆,稍有弯曲:每个关节处画的是前一根杆所要带动的表观质量,画法同上。关节全部锁死时,
 # 圆随杆数变大;关节全部自由时,后面五根杆在垂直于第一根杆的方向上几乎不增加惯量,在沿杆的方向上也远小于它们的质量。
 # %%
 def through_joints(model, q):
@@ -224,12 +239,19 @@ ax.set(xlabel="x [m]", ylabel="z [m]", title="apparent mass through each hinge (
 ax.legend(loc="lower right")
 plt.show()
 # %% [markdown] lang="en"
-# And Go2? If you roll its trunk, the legs lag behind, and the apparent inertia is a quarter of that with locked joints.
-# If you lift the trunk, you lift 13.4 kg of 16.1 kg. In terms of $M$, the articulated inertia of the base is a Schur
-# complement. Pushing at the base gives the same:
+# And Go2? Take its trunk, first in a roll, then upward.
 # %% [markdown] lang="zh"
-# 那么 Go2 呢?让躯干绕前后轴翻滚,腿就跟在后面摆:表观惯量只有锁死时的四分之一。把它往上提,提起的是 16.1 kg 中的
-# 13.4 kg。用 $M$ 来表示,基座的铰接体惯量就是一个 Schur 补;在基座上施加推力,得到的也是它:
+# 那么 Go2 呢?抓住它的躯干,先让它翻滚,再把它往上提。
+# %%
+tw.ask("49.7-roll", ...)
+# %%
+lifted = tw.ask("49.7-lifted", ...)
+lifted
+# %% [markdown] lang="en"
+# In terms of $M$, the articulated inertia of the base is a Schur complement. Pushing at the base gives the same. If you
+# answered above, the picture shows your guess of the lifted mass beside it:
+# %% [markdown] lang="zh"
+# 用 $M$ 来表示,基座的铰接体惯量就是一个 Schur 补;在基座上施加推力,求得的惯量与之相同。上面填过猜测的话,图中会把它画在提起的质量旁边:
 # %%
 M = tw.crba(model, q)
 schur = M[:6, :6] - M[:6, 6:] @ np.linalg.solve(M[6:, 6:], M[6:, :6])
@@ -253,18 +275,23 @@ for ax, (title, (names, when_locked, when_free)) in zip(axes, pairs.items()):
     ax.bar(x + 0.2, when_free, 0.4, color=plot.COLOURS["blue"], label="outboard joints free")
     ax.set(xticks=x, xticklabels=names, title=title)
     assert (np.asarray(when_free) <= np.asarray(when_locked) * (1 + 1e-12)).all()
+lifted.draw(axes[1], "y")
 figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
 plt.show()
 assert np.isclose(IA[1][0, 0] / M[0, 0], 0.24, atol=0.01)
 # %% [markdown] lang="en"
-# The base matters as much. Give the front left hip 1 N m. With the base held it accelerates with $1/D_i$ = 54 rad/s²;
-# on a free robot with 95, since the trunk gives way, and every other joint moves too. So $\hat I_i^A$ is not the answer
+# The base matters as much. Give the front left hip 1 N m.
+# %% [markdown] lang="zh"
+# 基座的影响同样大。在左前髋关节施加 1 N·m 的力矩。
+# %%
+tw.ask("49.7-hip", ...)
+# %% [markdown] lang="en"
+# Every other joint of the free robot moves too. So $\hat I_i^A$ is not the answer
 # to a torque at joint $i$, as the chapter pictures it: it is the answer of body $i$ to a wrench that acts on it from
 # outside. (The chapter's pseudocode sets $\boldsymbol a_0 = -\boldsymbol g$ for the base, so it computes a robot whose
 # base is held.)
 # %% [markdown] lang="zh"
-# 基座的影响同样大。给左前髋 1 N m。固定基座时它以 $1/D_i$ = 54 rad/s² 加速;机器人自由时是 95,因为躯干会退让,而且其他关节
-# 都跟着动。所以 $\hat I_i^A$ 并不像本章描述的那样是对关节 $i$ 处扭矩的响应,而是刚体 $i$ 对外界作用在它上面的 wrench 的响应。
+# 机器人自由时,其他关节也都跟着动。所以 $\hat I_i^A$ 并不像本章描述的那样是对关节 $i$ 处力矩的响应,而是刚体 $i$ 对外界作用在它上面的 wrench 的响应。
 # (本章的伪代码给基座设 $\boldsymbol a_0 = -\boldsymbol g$,算的其实是被托住的机器人。)
 # %%
 fixed, push = tw.load("go2", base="fixed"), np.eye(model.nv)[6]
@@ -281,7 +308,7 @@ assert (np.abs(loose[9:]) > 0.1).all()
 # `aba` and `rnea` are inverses of each other. It is a good test if two algorithms of different kinds agree. We do it
 # for a hundred random states at once.
 # %% [markdown] lang="zh"
-# ## 一去一回
+# ## 正逆互验
 #
 # `aba` 与 `rnea` 互为逆。两种不同的算法结果一致,是很好的检验。这里一次用一百个随机状态。
 # %%
@@ -294,10 +321,11 @@ assert np.allclose(tw.aba(model, qs, vs, tw.rnea(model, qs, vs, vs)), vs, atol=1
 
 
 # %% [markdown] lang="en"
-# **Your turn**, exercise 49.7.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
+# **Exercise 49.7.2.** The second way builds $M$ and solves $M\ddot q = \tau - h$. Write both ways, and run the cell: it is checked here. How much
+# longer does the second take for Go2? The rest of the exercise, in your folder, has you measure it.
 # %% [markdown] lang="zh"
-# **轮到你了**,练习 49.7.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# **练习 49.7.2。** 另一种算法先构造 $M$,再解 $M\ddot q = \tau - h$。把两种都写出来,运行单元格当场检查。对 Go2,第二种要慢多少?
+# 练习的其余部分在你的文件夹里,请你测一测。
 # %%
 def forward_dynamics_two_ways(model, q, v, tau):
     """Return the acceleration under given forces: by ABA, and with the mass matrix."""
@@ -306,29 +334,40 @@ def forward_dynamics_two_ways(model, q, v, tau):
 
 tw.exercises.check("49.7.2", forward_dynamics_two_ways)
 # %% [markdown] lang="en"
-# Before you read on: a Go2 is dropped with bent knees, its motors off. How fast do its knees begin to turn, in
-# rad/s²?
-# %% [markdown] lang="zh"
-# 先想一想:一台屈膝的 Go2 被松手落下,电机全部断电。膝关节开始转动的角加速度是多少 rad/s²?
-# %%
-guess = "…"  # your number
-# %%
-still = np.zeros(model.nv)
-answer = np.abs(tw.aba(model, model.standing(), still, still)[6:]).max()
-print(f"you: {guess}, computed: {answer:.4g} rad/s²")
-# %% [markdown] lang="en"
 # ## Free fall
 #
+# A robot is let go in the air, its motors off. The chapter expects that the linear part of the base's acceleration is about
+# (0, 0, −9.81). Do you agree? First a guess about the joints.
+# %% [markdown] lang="zh"
+# ## 自由落体
+#
+# 机器人在空中被松手,电机全部断电。本章认为基座加速度的线性部分约为 (0, 0, −9.81)。你同意吗?先猜一猜关节会怎样。
+# %% [markdown] lang="en"
+# **Exercise 49.7.1.** Let the base have any tilt. What does `aba` return, and what do you expect without any algorithm? Return both. What
+# follows is folded: open it when you have also done the second part, the robot in motion, in your folder.
+# %% [markdown] lang="zh"
+# **练习 49.7.1。** 基座可以任意倾斜。`aba` 返回什么?不用任何算法,你预期什么?两个都返回。后面的内容是折叠的,等你在文件夹里做完第二部分
+# (运动中的机器人)再打开。
+# %%
+tw.ask("49.7-knees", ...)
+
+
+# %%
+def fall_from_rest(model, q):
+    """Return the acceleration of a robot at rest without torques, by ABA and as you expect it."""
+    return ...
+
+
+tw.exercises.check("49.7.1", fall_from_rest)
+# %% [markdown] lang="en" after="49.7.1"
 # Without torques and at rest, every body falls alike: the base with $\boldsymbol g$ in its own axes, no joint moves. Not
 # approximately; exactly. It is no longer so when $v \ne 0$: the swinging legs pull at the base, and a spatial
 # acceleration leaves out $\boldsymbol\omega \times \boldsymbol v$. What does fall with $\boldsymbol g$, always, is the
 # centre of mass: $\dot{\boldsymbol h}_G$ is the weight (49.10).
-# %% [markdown] lang="zh"
-# ## 自由落体
-#
+# %% [markdown] lang="zh" after="49.7.1"
 # 没有力矩又静止时,每个刚体落得一样快:基座的加速度是它自己坐标轴下的 $\boldsymbol g$,关节不动。这不是近似,而是精确成立。$v \ne 0$ 时则不同:摆动的腿会拉动基座,而且空间加速度里不含 $\boldsymbol\omega \times \boldsymbol v$。永远以
 # $\boldsymbol g$ 下落的是质心:$\dot{\boldsymbol h}_G$ 就是重力(49.10)。
-# %%
+# %% after="49.7.1"
 for any_q in qs[:10]:
     falling = tw.aba(model, any_q, rest, rest)
     down = tw.forward_kinematics(model, any_q).placement[1].rotation.T @ model.gravity
@@ -369,15 +408,21 @@ assert np.linalg.matrix_rank(tw.crba(arm, [0.0, 0.0])) == 1
 #
 # Take a chain of ten rods whose mass grows from the first to the last, and compute $\ddot q$ in fifty digits, with 3-D
 # vectors (`newton_euler_3d`). These are the true values. How exact are `aba`, and `crba` with `solve`, in double
-# precision? Every entry of $M$ contains the heavy tip, so the digits of a light rod are lost in rounding. ABA removes
-# the part of the tip that each free joint lets go, before it adds. A light tip harms neither of the two, although $M$
-# then has a larger condition number than with equal rods. So the condition number alone does not tell how exact the
-# result is.
+# precision?
 # %% [markdown] lang="zh"
 # ## 有多准?
 #
-# 取十根杆连成的链,质量从第一根到最后一根逐渐增大,用 3D 向量以五十位数字算出 $\ddot q$(`newton_euler_3d`)。这就是真值;
-# 用双精度的 `aba`,以及 `crba` 加 `solve`,各得到什么?$M$ 的每个元素里都有沉重的末端,轻的杆淹没在舍入误差里。ABA 在每个自由关节处,先减去随关节自由运动的部分,再相加。末端很轻时,两者都不受影响,
+# 取十根杆连成的链,质量从第一根到最后一根逐渐增大,用 3D 向量以五十位数字算出 $\ddot q$(`newton_euler_3d`),作为真值。
+# 用双精度的 `aba`,以及 `crba` 加 `solve`,各有多准?
+# %%
+tw.ask("49.7-tip", ...)
+# %% [markdown] lang="en"
+# Every entry of $M$ contains the heavy tip, so the digits of a light rod are lost in rounding. ABA first
+# removes what the free joint lets go, and only then adds the rest to the parent. A light tip harms neither of the two, although $M$
+# then has a larger condition number than with equal rods. So the condition number alone does not tell how exact the
+# result is.
+# %% [markdown] lang="zh"
+# $M$ 的每个元素里都有沉重的末端,轻的杆淹没在舍入误差里。ABA 在每个自由关节处,先减去随关节自由运动的部分,再相加。末端很轻时,两者都不受影响,
 # 尽管这时 $M$ 的条件数比等质量时更大:只看条件数,不能判断结果有多准。
 # %%
 ratios = np.array([1e-9, 1e-6, 1e-3, 1e0, 1e3, 1e6, 1e9])

@@ -63,6 +63,7 @@ from .contact import (
 )
 from .error_bounds import Accuracy, accuracy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
+from .exercises.asking import ask
 from .fast.compilation import compile
 from .fast.program import Program
 from .loading import load, robots
@@ -150,6 +151,7 @@ __all__ = [
     "accuracy",
     "advise",
     "articulated_inertia",
+    "ask",
     "attach",
     "bridge",
     "center_of_mass",

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 import twistwrench as tw
+from twistwrench.exercises.asking import questions
 from twistwrench.exercises.chapter import COURSE
 
 nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: the notebooks are not checked")
@@ -273,22 +274,54 @@ def test_a_section_ends_with_its_exercises(source, language):
 # ---------------------------------------------------------------- run
 
 
+def number(source):
+    """The section of a notebook."""
+    return source.stem.replace("_0", ".").replace("_", ".")
+
+
+ASKS = re.compile(r'^(?:\w+ = )?tw\.ask\("([\w.-]+)", \.\.\.\)$', re.MULTILINE)
+
+
 @pytest.mark.parametrize("source", SECTIONS, ids=by_name)
-def test_a_section_asks_before_it_shows_and_has_a_cell_for_the_student(source):
-    """A question with a guess, then the cell that answers; and one function to write, checked in place."""
-    cells = code(source)
-    asked = cells.index('guess = "…"  # your number')
-    assert not any("answer = " in cell for cell in cells[:asked])
-    assert re.search(r"^answer = .*\nprint\(f\"you: \{guess\}", cells[asked + 1], flags=re.MULTILINE)
-    number = source.stem.replace("_0", ".").replace("_", ".")
-    (turn,) = (cell for cell in cells if "tw.exercises.check(" in cell)
-    (name,) = (node.name for node in ast.parse(turn).body if isinstance(node, ast.FunctionDef))
-    assert turn.endswith(f", {name})")
-    (chinese,) = (cell for cell in notebook(source, "zh").cells if "tw.exercises.check(" in cell.source)
-    assert chinese.source.endswith(f', {name}, language="zh")')
-    exercise, part = COURSE.find_part(name)
-    assert exercise.section == number
-    assert f"def {name}({part.arguments}):" in turn
+def test_a_section_asks_five_to_eight_questions_and_all_that_it_has(source):
+    asked = [name for cell in code(source) for name in ASKS.findall(cell)]
+    assert asked == list(questions(number(source)))
+    assert 5 <= len(asked) <= 8
+    chinese = "\n".join(cell.source for cell in notebook(source, "zh").cells if cell.cell_type == "code")
+    assert [chinese.count(f'tw.ask("{name}", ..., language="zh")') for name in asked] == [1] * len(asked)
+
+
+@pytest.mark.parametrize("source", SECTIONS, ids=by_name)
+def test_an_exercise_is_set_before_its_answer_is_told(source):
+    """What tells the answer is folded away with its outputs, and the exercise stands before it, with its own cell."""
+    cells, set_ = build.cells(source), []
+    for cell in cells:
+        set_ += re.findall(r"^\*\*Exercise ([\d.]+\d)\.\*\*", cell.source, re.MULTILINE)
+        assert cell.metadata.get("after", set_[-1] if set_ else None) in (*set_, None)
+    told = {cell.metadata["after"] for cell in cells if "after" in cell.metadata}
+    checked = re.findall(r'^tw\.exercises\.check\("([\d.]+)"', "\n".join(code(source)), re.MULTILINE)
+    assert told <= set(checked) == set(set_)
+    assert {exercise.section for exercise in map(COURSE.exercise, set_)} == {number(source)}
+
+
+@pytest.mark.parametrize("source", SECTIONS, ids=by_name)
+def test_the_cells_for_the_student_have_the_names_of_the_exercises(source):
+    turns = [cell for cell in code(source) if "tw.exercises.check(" in cell]
+    chinese = [cell.source for cell in notebook(source, "zh").cells if "tw.exercises.check(" in cell.source]
+    assert len(turns) == len(chinese) > 0
+    for turn, other in zip(turns, chinese):
+        (name,) = (node.name for node in ast.parse(turn).body if isinstance(node, ast.FunctionDef))
+        exercise, part = COURSE.find_part(name)
+        assert turn.endswith(f'tw.exercises.check("{exercise.id}", {name})')
+        assert other.endswith(f', {name}, language="zh")')
+        assert f"def {name}({part.arguments}):" in turn
+
+
+@pytest.mark.parametrize("source", SECTIONS, ids=by_name)
+def test_a_notebook_begins_with_lines_that_a_student_reads(source):
+    first = next(cell for cell in notebook(source, "en").cells if cell.cell_type == "code").source
+    assert first.startswith("import twistwrench as tw\n")
+    assert len([line for line in first.split("\n") if line]) <= 4
 
 
 @pytest.mark.parametrize("source", SOURCES, ids=by_name)
@@ -297,7 +330,8 @@ def test_asserts_and_drawing_are_folded_away(source):
     folded = [cell for cell in cells if cell.metadata.get("jupyter", {}).get("source_hidden")]
     shown = [node for cell in cells if cell not in folded for node in ast.parse(cell.source).body]
     assert not any(isinstance(node, ast.Assert) for node in shown)
-    assert all(cell.source.startswith((build.CLAIMS, build.DRAWING)) for cell in folded)
+    after = tuple(f"# {build.AFTER['en'].format(exercise.id)}" for exercise in COURSE.exercises)
+    assert all(cell.source.startswith((build.CLAIMS, build.DRAWING, build.SETUP["en"], *after)) for cell in folded)
     assert (
         len([node for cell in folded for node in ast.walk(ast.parse(cell.source)) if isinstance(node, ast.Assert)]) > 5
     )

@@ -19,6 +19,8 @@ wrong      slips of the chapter that need no code of their own
 field      what is taken for each other
 forbidden  what the texts rule out
 chapter    `COURSE`: the sections, and all of the above
+questions  a room: what the notebooks ask before they show
+asking     `ask`, which judges a guess
 public     the functions of this page
 items      a room: the exercises
 checking   the plugin of pytest in a student's folder
@@ -33,14 +35,15 @@ commands   ``twistwrench exercises``
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .asking import Asked, ask
     from .public import Checked, Status, case, check, hint, mine, solution, start, status
 
-__all__ = ["Checked", "Status", "case", "check", "hint", "mine", "solution", "start", "status"]
+__all__ = ["Asked", "Checked", "Status", "ask", "case", "check", "hint", "mine", "solution", "start", "status"]
 
 
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from . import public
+    from . import asking, public
 
-    return getattr(public, name)
+    return getattr(asking if name in asking.__all__ else public, name)

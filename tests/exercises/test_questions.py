@@ -1,0 +1,235 @@
+"""The questions of the notebooks: each answer is found a second time, by a closed form or by another program."""
+
+import re
+from functools import cache
+
+import numpy as np
+import pytest
+
+import twistwrench as tw
+from misstep.errors import UnknownName
+from twistwrench.exercises.asking import SECTIONS, Asked, questions
+
+ALL = {name: question for section in SECTIONS for name, question in questions(section).items()}
+EVERY = [pytest.param(name, id=name) for name in ALL]
+
+
+# ---------------------------------------------------------------- the same answers by other means
+
+
+@cache
+def pinocchio():
+    return pytest.importorskip("pinocchio", reason="Pinocchio is not installed: some answers are not found again")
+
+
+@cache
+def go2(base="floating"):
+    """Go2 in Pinocchio, with its data and its standing posture."""
+    model = tw.load("go2", base=base)
+    theirs = tw.bridge.to_pinocchio_model(model)
+    return theirs, theirs.createData(), tw.load("go2").standing()[0 if base == "floating" else 7 :]
+
+
+@cache
+def mass_matrix():
+    """M of the standing Go2 by Pinocchio; the base's rows are (v, ω)."""
+    theirs, data, q = go2()
+    return pinocchio().crba(theirs, data, q)
+
+
+def locked_inertia():
+    """Mass, centre of mass and inertia about it of the standing Go2 with locked joints, by points and parallel axes."""
+    theirs, data, q = go2()
+    pin = pinocchio()
+    pin.forwardKinematics(theirs, data, q)
+    bodies = [
+        (i.mass, m.act(i.lever), m.rotation @ i.inertia @ m.rotation.T) for i, m in zip(theirs.inertias, data.oMi)
+    ]
+    mass = sum(m for m, *_ in bodies)
+    com = sum(m * c for m, c, _ in bodies) / mass
+    return (
+        mass,
+        com,
+        sum(I + m * ((c - com) @ (c - com) * np.eye(3) - np.outer(c - com, c - com)) for m, c, I in bodies),
+    )
+
+
+def hanging_rods(n):
+    """Mass felt across the upper end of n thin rods of 1 kg and 1 m that hang in a row: from their kinetic energy."""
+    lever = np.tril(np.ones((n, n)), -1) + np.eye(n) / 2  # of each middle, by the small angles of the rods
+    M = np.zeros((n + 1, n + 1))
+    M[0, 0], M[0, 1:], M[1:, 0] = n, lever.sum(axis=0), lever.sum(axis=0)
+    M[1:, 1:] = lever.T @ lever + np.eye(n) / 12
+    return M[0, 0] - M[0, 1:] @ np.linalg.solve(M[1:, 1:], M[1:, 0])
+
+
+def trunk_share(row):
+    """Apparent inertia of the trunk with free joints beside that with locked ones, and itself, by Pinocchio's M."""
+    M = mass_matrix()
+    free = M[:6, :6] - M[:6, 6:] @ np.linalg.solve(M[6:, 6:], M[6:, :6])
+    return free[row, row], free[row, row] / M[row, row]
+
+
+def hip_under_one_newton_metre(base):
+    theirs, data, q = go2(base)
+    rest, push = np.zeros(theirs.nv), np.eye(theirs.nv)[theirs.nv - 12]
+    return (
+        pinocchio().aba(theirs, data, q, rest, push)[theirs.nv - 12]
+        - pinocchio().aba(theirs, data, q, rest, rest)[theirs.nv - 12]
+    )
+
+
+def knees_of_a_dropped_go2():
+    theirs, data, q = go2()
+    knees = pinocchio().aba(theirs, data, q, np.zeros(18), np.zeros(18))[8::3]
+    return "still" if np.abs(knees).max() < 1e-9 else "moving"
+
+
+def digits_at_a_heavy_tip():
+    """By Pinocchio's two ways, against each other: RNEA of an acceleration tells how good it is."""
+    mpmath = pytest.importorskip("mpmath")
+    pin, model = pinocchio(), tw.chain(10, mass_ratio=1e6)
+    theirs = tw.bridge.to_pinocchio_model(model)
+    data, (q, v, tau) = theirs.createData(), np.random.default_rng(7).standard_normal((3, 10))
+    with mpmath.workdps(50):
+        state = [tw.newton_euler_3d.as_mpmath(x) for x in (q, v, tau)]
+        exact = tw.newton_euler_3d.forward_dynamics(model, *state).astype(float)
+    by_aba = pin.aba(theirs, data, q, v, tau)
+    solved = np.linalg.solve(pin.crba(theirs, data, q), tau - pin.nonLinearEffects(theirs, data, q, v))
+    return "aba" if 100 * np.abs(by_aba - exact).max() < np.abs(solved - exact).max() else "other"
+
+
+def unstable_axis():
+    """By Euler's equations: a small error about the others grows where the moment lies between theirs."""
+    small, middle, large = np.linalg.eigvalsh(locked_inertia()[2])
+    growth = [
+        (middle - small) * (small - large),
+        (middle - small) * (large - middle),
+        (large - small) * (middle - large),
+    ]
+    return ("smallest", "middle", "largest")[int(np.argmax(growth))]
+
+
+def rolled_with_locked_legs():
+    """By Pinocchio: its M has the locked robot's inertia about the base."""
+    return mass_matrix()[3, 3] / go2()[0].inertias[1].matrix()[3, 3]
+
+
+def eigenvalues_of_a_point_that_are_not_zero():
+    """A point at height z: ½ m |v + ω × c|², so that ωx couples with vy, and ωy with vx."""
+    m, z = 2.0, 0.1
+    pair = m * np.array([[z * z, z], [z, 1]])
+    return 2 * int((np.abs(np.linalg.eigvalsh(pair)) > 1e-12).sum()) + 1
+
+
+def felt(own, others):
+    """Of which of the texts a number is nearest to; to choose a word."""
+    return min(others, key=lambda name: abs(others[name] - own))
+
+
+ORACLES = {
+    "49.5-point": eigenvalues_of_a_point_that_are_not_zero,
+    "49.5-roll": rolled_with_locked_legs,
+    "49.5-plate": lambda: "never" if 1 + 1 < 10 else "any",
+    "49.5-antisymmetric": lambda: "product",  # [v]× stands in one corner
+    "49.5-gyroscopic": lambda: "stays" if np.cross([0.4, -0.3, 0.5], [0.4, -0.6, 1.5]).any() else "gone",
+    "49.5-turnover": unstable_axis,
+    "49.7-rod": lambda: 2.0 / 4,
+    "49.7-chain": lambda: felt(hanging_rods(6) / hanging_rods(1), {"six": 6, "twice": 2, "hardly": 1}),
+    "49.7-roll": lambda: 100 * trunk_share(3)[1],
+    "49.7-lifted": lambda: trunk_share(2)[0],
+    "49.7-hip": lambda: (
+        "more" if hip_under_one_newton_metre("floating") > hip_under_one_newton_metre("fixed") else "less"
+    ),
+    "49.7-knees": knees_of_a_dropped_go2,
+    "49.7-tip": digits_at_a_heavy_tip,
+}
+
+
+def test_every_answer_has_an_oracle():
+    assert list(ORACLES) == list(ALL)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_an_answer_is_found_a_second_time(name):
+    question, truth, again = ALL[name], ALL[name].compute()["truth"], ORACLES[name]()
+    if question.choices:
+        assert truth == again
+    else:
+        assert truth == pytest.approx(again, rel=0.01, abs=1e-9)  # rods are thin, in closed form
+
+
+# ---------------------------------------------------------------- what is told
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+@pytest.mark.parametrize("name", EVERY)
+def test_the_right_guess_is_right_and_the_usual_wrong_ones_get_their_sentence(name, language):
+    question, facts = ALL[name], ALL[name].compute()
+
+    def told(answer):
+        return tw.ask(name, question.letter(answer) if question.choices else answer, language=language)
+
+    assert told(facts["truth"]).right is True
+    for wrong, said in question.usual.items():
+        asked = told(wrong if question.choices else facts[wrong])
+        assert asked.right is False
+        assert said.of(language).format(**facts) in asked._verdict
+    if question.choices:
+        assert {*question.choices} == {*question.usual, facts["truth"]}  # no choice without its sentence
+    assert len(question.usual) >= 1
+    shown = tw.ask(name, ..., language=language)
+    assert shown.right is None
+    assert "{" not in repr(told(facts["truth"])) + repr(shown)
+
+
+@pytest.mark.parametrize("name", EVERY)
+def test_a_question_is_in_both_languages_with_the_same_numbers(name):
+    question = ALL[name]
+    for text in (question.text, question.why, *question.choices.values(), *question.usual.values()):
+        assert not re.search("[\u4e00-\u9fff]", text.en)
+        assert re.search("[\u4e00-\u9fff]", text.zh) or text.en == text.zh
+        assert sorted(re.findall(r"\{.*?\}", text.en)) == sorted(re.findall(r"\{.*?\}", text.zh))
+
+
+def test_a_guess_that_is_near_is_right_and_another_is_told_by_how_much():
+    near, far, sign, zero = (tw.ask("49.7-rod", guess, language="en") for guess in (0.51, 10, -0.5, 0))
+    assert near.right
+    assert "20" in far._verdict  # the factor
+    assert len({far._verdict, sign._verdict, zero._verdict}) == 3
+
+
+def test_a_notebook_shows_the_answer_folded_and_marks_what_is_text():
+    asked, guessed = tw.ask("49.7-knees", ...), tw.ask("49.7-knees", "A)")
+    assert asked._repr_html_().count("<details>") == len(asked.question.choices)
+    assert guessed.guess == "fold"
+    assert guessed.letter == "a"
+    page = guessed._repr_html_()
+    assert page.index("tw-wrong") < page.index("<details>") < page.index("Gravity accelerates")
+    assert isinstance(guessed, Asked)
+
+
+def test_the_guess_is_drawn_beside_the_truth():
+    plt = pytest.importorskip("matplotlib.pyplot", reason="matplotlib is not installed: nothing is drawn")
+    _, ax = plt.subplots()
+    tw.ask("49.7-lifted", ...).draw(ax)
+    assert not ax.lines
+    tw.ask("49.7-lifted", 16, language="en").draw(ax, "y")
+    assert [line.get_ydata()[0] for line in ax.lines] == [16, pytest.approx(13.4, abs=0.1)]
+    plt.close("all")
+
+
+@pytest.mark.parametrize(
+    ("name", "guess", "error", "told"),
+    [
+        ("49.7-knee", None, UnknownName, "49.7-knees"),
+        ("49.12-knees", None, UnknownName, "49.12-knees"),
+        ("49.7-knees", "d", ValueError, "a, b, c"),
+        ("49.7-knees", 0.0, ValueError, "a, b, c"),
+        ("49.7-lifted", "heavy", ValueError, "kg"),
+        ("49.7-lifted", np.nan, ValueError, "kg"),
+    ],
+)
+def test_what_is_no_question_or_no_guess_is_refused_by_name(name, guess, error, told):
+    with pytest.raises(error, match=re.escape(told)):
+        tw.ask(name, guess)
