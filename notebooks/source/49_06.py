@@ -10,20 +10,22 @@
 # 给定运动,需要什么样的力?递归牛顿-欧拉算法沿运动树走两遍来回答:向外传递运动,向内传递力。这个笔记本在 Go2 上
 # 一步一步走一遍,画出每一步带的是什么,说明重力在里面是什么,最后看看本章的伪代码错在哪里。
 # %%
+import twistwrench as tw
+
+model = tw.load("go2")
+q = model.standing()
+# %% setup="yes"
 import dataclasses
 import inspect
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-import twistwrench as tw
 from twistwrench import plot
 from twistwrench.algorithms.rnea import newton_euler
 from twistwrench.exercises.wrong import faulty
 from twistwrench.model import columns, tree_terms, wrenches
 
-model = tw.load("go2")
-q = model.standing()
 v, a = np.zeros((2, model.nv))
 v[2], v[3], a[3] = 0.6, 0.8, 2.0  # the base turns left at 0.6 rad/s, walks at 0.8 m/s, and speeds up
 for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs swing, two go back
@@ -33,12 +35,18 @@ for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs
 # %% [markdown] lang="en"
 # ## The tree
 #
+# The motion in this notebook is a moment of a trot: the base walks at 0.8 m/s, turns left at 0.6 rad/s and speeds up; two
+# legs swing, two go back. (`q`, `v` and `a`, in the folded cell above.)
+#
 # Body 0 is the world, body 1 the base; every body $i$ hangs on its parent $\lambda(i)$ by joint $i$. To the recursion
 # a joint is two things: the matrix $X_i$ that takes a twist from the parent's frame to frame $i$, and the subspace
 # $S_i$ of the motions that the joint allows, 6 × 1 for a hinge and 6 × 6 for the base, which is free. `tree_terms`
 # computes them. Since $\lambda(i) < i$, counting up is going outward.
 # %% [markdown] lang="zh"
 # ## 运动树
+#
+# 这个笔记本用的运动是小跑中的一瞬:基座以 0.8 m/s 前行,以 0.6 rad/s 左转,并在加速;两条腿向前摆,两条腿向后蹬。
+# (即上面折叠的单元格里的 `q`、`v`、`a`。)
 #
 # 刚体 0 是世界,刚体 1 是基座;每个刚体 $i$ 由关节 $i$ 挂在父连杆 $\lambda(i)$ 上。对递推来说,一个关节就是两样东西:
 # 把 twist 从父坐标系换到坐标系 $i$ 的矩阵 $X_i$,以及关节所允许的运动的子空间 $S_i$,旋转关节是 6 × 1,自由的基座是
@@ -62,9 +70,7 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 #
 # $$\boldsymbol a_i = X_i \boldsymbol a_{\lambda(i)} + S_i \ddot q_i + \boldsymbol V_i \times S_i \dot q_i.$$
 #
-# The axis $S_i$ is fixed in body $i$ and moves with it; $\boldsymbol V_i \times S_i$ is the rate at which it does. This
-# is not yet the Coriolis acceleration: on a slider that moves outward on a turntable it is $\omega \times v$, half of
-# $2\,\omega \times v$. The other half appears when the spatial acceleration is turned into that of a point. (If the
+# The axis $S_i$ is fixed in body $i$ and moves with it; $\boldsymbol V_i \times S_i$ is the rate at which it does. (If the
 # numbers of $S_i$ depended on $q$, as in a base with Euler angles, $\dot S_i \dot q_i$ would be added. Every joint here
 # has a constant $S_i$; Euler angles are three hinges in a row.)
 #
@@ -83,14 +89,15 @@ assert [s.shape[1] for s in S[1:]] == [6] + 12 * [1]
 #
 # $$\boldsymbol a_i = X_i \boldsymbol a_{\lambda(i)} + S_i \ddot q_i + \boldsymbol V_i \times S_i \dot q_i.$$
 #
-# 关节轴 $S_i$ 固定在刚体 $i$ 上,随它一起运动,$\boldsymbol V_i \times S_i$ 就是它的变化率。这还不是科里奥利加速度:在转盘上向外滑动的滑块,这一项是
-# $\omega \times v$,只有 $2\,\omega \times v$ 的一半;另一半要到由空间加速度求点的加速度时才出现。(若 $S_i$ 的各个数随 $q$ 变化,例如用欧拉角表示的基座,
+# 关节轴 $S_i$ 固定在刚体 $i$ 上,随它一起运动,$\boldsymbol V_i \times S_i$ 就是它的变化率。(若 $S_i$ 的各个数随 $q$ 变化,例如用欧拉角表示的基座,
 # 还要加上 $\dot S_i \dot q_i$。这里每种关节的 $S_i$ 都是常数,欧拉角写成三个依次相连的旋转关节。)
 #
 # 起点是世界:$\boldsymbol V_0 = 0$,而 $\boldsymbol a_0 = (0, -\boldsymbol g)$:不是把每个刚体往下拉,而是让世界向上加速。
 # 为什么两者一样,下面会看到。
 #
 # `tw.rnea_terms` 返回递推途中算出的所有量,每个刚体一项。
+# %%
+tw.ask("49.6-slider", ...)
 # %%
 terms = tw.rnea_terms(model, q, v, a)
 V, A = np.array(terms.V), np.array(terms.A)
@@ -117,7 +124,16 @@ assert np.allclose(half[3:] + np.cross(V_slider[:3], V_slider[3:]), [-(w**2) * 0
 # %% [markdown] lang="en"
 # ## Inward: wrenches
 #
-# The Newton–Euler equation gives the wrench that each body needs for its motion. This wrench is transmitted by joints:
+# The Newton–Euler equation gives the wrench that each body needs for its motion. The chapter then adds "the reactions that
+# all children pass on".
+# %% [markdown] lang="zh"
+# ## 向内:wrench
+#
+# 牛顿-欧拉方程给出每个刚体的运动所需的 wrench。本章接着“加上所有子连杆传递过来的反作用力”。
+# %%
+tw.ask("49.6-child", ...)
+# %% [markdown] lang="en"
+# This wrench is transmitted by joints:
 # joint $i$ supplies body $i$ and all its children. So the wrench through joint $i$ is what the body itself needs plus
 # what its children need:
 #
@@ -127,9 +143,7 @@ assert np.allclose(half[3:] + np.cross(V_slider[:3], V_slider[3:]), [-(w**2) * 0
 # $X_j^T$, because $X_j$ leads outward and equal power turns its transpose inward (49.4). A hinge transmits five of the
 # six components of $\boldsymbol F_i$ by itself; only the component along $S_i$ is supplied by the motor.
 # %% [markdown] lang="zh"
-# ## 向内:wrench
-#
-# 牛顿-欧拉方程给出每个刚体的运动所需的 wrench。它由关节传递:关节 $i$ 供给刚体 $i$ 和它的所有子连杆。
+# 这个 wrench 由关节传递:关节 $i$ 供给刚体 $i$ 和它的所有子连杆。
 # 所以经过关节 $i$ 的 wrench,等于刚体自身所需的,加上子连杆所需的:
 #
 # $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
@@ -155,6 +169,8 @@ assert np.array_equal(tau, tw.rnea(model, q, v, a))
 # 所以批量的状态和任何数值类型都用同样的几行代码。
 # %%
 print(inspect.getsource(newton_euler))
+# %%
+tw.ask("49.6-cost", ...)
 
 
 # %% [markdown] lang="en"
@@ -192,57 +208,97 @@ q_on, v_on = model.integrate(q, 1j * h * v), v + 1j * h * a  # one instant later
 energy = tw.kinetic_energy(model, q_on, v_on) + tw.potential_energy(model, q_on)
 assert np.isclose(tau @ v, energy.imag / h, rtol=1e-12)
 print(f"power {tau @ v:.2f} W")
+
+
 # %% [markdown] lang="en"
 # ## Gravity: a rising world, or thirteen weights
 #
+# RNEA never mentions the weight of a link. It only lets the world rise, $\boldsymbol a_0 = (0, -\boldsymbol g)$. Is that the
+# same?
+# %% [markdown] lang="zh"
+# ## 重力:向上加速的世界,或十三份重量
+#
+# RNEA 从不提起连杆的重量,只是让世界向上加速,$\boldsymbol a_0 = (0, -\boldsymbol g)$。这样一样吗?
+# %% [markdown] lang="en"
+# **Exercise 49.6.2.** First in numbers: write the thirteen weights as wrenches, to be given to a robot without gravity as `f_ext`. Then the
+# proof, in words, in your folder. What is folded below is the answer.
+# %% [markdown] lang="zh"
+# **练习 49.6.2。** 先用数值检验:把十三份重量写成 wrench,作为 `f_ext` 交给没有重力的机器人。再用文字证明,写在你的文件夹里。下面折叠的就是答案。
+# %%
+def weight_wrenches(model, q):
+    """Return the weight of each body as a wrench in the body's own frame."""
+    return ...
+
+
+tw.exercises.check("49.6.2", weight_wrenches)
+# %% [markdown] lang="en" after="49.6.2"
 # Each body needs $\hat I_i (\boldsymbol a_i - \boldsymbol g_i)$ where $\boldsymbol g_i$ is gravity, seen from body $i$
 # as a spatial acceleration $(0, R_i^T \boldsymbol g)$. But $\hat I_i (0, R_i^T \boldsymbol g)$ *is* the weight: the force
 # $m R_i^T \boldsymbol g$ with the moment $\boldsymbol c \times m R_i^T \boldsymbol g$. So it is the same whether you
 # take the weight of each body as an external wrench, or subtract $\boldsymbol g_i$ from each acceleration. And since the
 # recursion hands an acceleration of the world to every body, one line does for all. Here are the thirteen weights, with
 # gravity switched off:
-# %% [markdown] lang="zh"
-# ## 重力:向上加速的世界,或十三份重量
-#
+# %% [markdown] lang="zh" after="49.6.2"
 # 每个刚体需要 $\hat I_i (\boldsymbol a_i - \boldsymbol g_i)$,其中 $\boldsymbol g_i$ 是从刚体 $i$ 看的重力,写成空间加速度
 # $(0, R_i^T \boldsymbol g)$。而 $\hat I_i (0, R_i^T \boldsymbol g)$ *就是*重力:力 $m R_i^T \boldsymbol g$,带着力矩
 # $\boldsymbol c \times m R_i^T \boldsymbol g$。所以把每个刚体的重力当作外力,或从每个加速度里减去 $\boldsymbol g_i$,
 # 结果一样。又因为递推会把世界的加速度传给每个刚体,写一行就够了。下面关掉重力,把十三份重量当作外力加上去:
 # %%
+weightless = dataclasses.replace(model, gravity=np.zeros(3))
+# %% after="49.6.2"
 weights = np.zeros((model.nbodies, 6))
 for i in range(1, model.nbodies):
     force = model.inertia[i].mass * kin.placement[i].rotation.T @ model.gravity
     weights[i] = [*np.cross(model.inertia[i].com, force), *force]
     assert np.allclose(weights[i], I[i] @ [0, 0, 0, *(kin.placement[i].rotation.T @ model.gravity)], atol=1e-12)
 
-weightless = dataclasses.replace(model, gravity=np.zeros(3))
 assert not np.allclose(tw.rnea(weightless, q, v, a), tau)
 assert np.allclose(tw.rnea(weightless, q, v, a, f_ext=weights), tau, rtol=1e-12, atol=1e-12)
+
+
 # %% [markdown] lang="en"
 # ## At rest
 #
-# With $v = a = 0$, only the forces that hold the robot up remain. The first six numbers are the wrench on the base. In
-# the air, somebody must hold the whole weight *upwards* and, since the centre of mass is not at the origin of the base,
-# apply a moment $\boldsymbol c \times m\boldsymbol g$ as well. (The chapter has $-mg$ and no moment.)
-#
-# If the robot stands, the floor does that, and every wrench in the legs turns round. Left: held by the base, each joint
-# carries what hangs below it. Right: standing, each joint carries what is above it.
+# With $v = a = 0$, only the forces that hold the robot up remain. The first six numbers are the wrench on the base; in the
+# air, somebody must supply it. The chapter expects $(0, 0, 0, 0, 0, -mg)$. Run it. Do you agree?
 # %% [markdown] lang="zh"
 # ## 静止时
 #
-# 当 $v = a = 0$,剩下的就是撑住机器人的力。前六个数是基座的 wrench:如果悬在空中,就得有人*向上*托住全部重量;而质心
-# 不在基座原点,所以还有力矩 $\boldsymbol c \times m\boldsymbol g$。(本章写的是 $-mg$,没有力矩。)
-#
-# 如果机器人站着,这件事由地面来做,腿里的每个 wrench 都反过来。左:托住基座,每个关节承担挂在它下面的部分。
-# 右:站立,每个关节承担在它上面的部分。
+# 当 $v = a = 0$,剩下的就是撑住机器人的力。前六个数是基座的 wrench;如果悬在空中,就得有人提供它。本章预期结果是
+# $(0, 0, 0, 0, 0, -mg)$。运行一下,你同意吗?
+# %% [markdown] lang="en"
+# **Exercise 49.6.3.** Predict the wrench from masses and centre of mass alone, for any posture and any tilt of the base.
+# %% [markdown] lang="zh"
+# **练习 49.6.3。** 只用质量和质心预测这个 wrench,位形任意,基座可任意倾斜。
 # %%
+def base_wrench_at_rest(model, q):
+    """Return the wrench on the base that holds a robot at rest, from mass and centre of mass."""
+    return ...
+
+
+tw.exercises.check("49.6.3", base_wrench_at_rest)
+# %% after="49.6.3"
 rest = np.zeros(model.nv)
 base_wrench = tw.rnea(model, q, rest, rest)[:6]
 up = -model.mass * model.gravity
 c = kin.placement[1].inverse().act(tw.center_of_mass(model, q))  # base and world are aligned here
 assert np.allclose(base_wrench, [*np.cross(c, up), *up])
 print("base: moment", base_wrench[:3].round(3) + 0.0, "N m, force", base_wrench[3:].round(2) + 0.0, "N")
-
+# %% [markdown] lang="en" after="49.6.3"
+# Somebody must hold the whole weight *upwards* and, since the centre of mass is not at the origin of the base, apply a
+# moment $\boldsymbol c \times m\boldsymbol g$ as well. The chapter has the sign of the weight, and no moment.
+# %% [markdown] lang="zh" after="49.6.3"
+# 得有人*向上*托住全部重量;而质心不在基座原点,所以还有力矩 $\boldsymbol c \times m\boldsymbol g$。本章写的是重力本身的符号,
+# 也没有力矩。
+# %%
+tw.ask("49.6-hip", ...)
+# %% [markdown] lang="en"
+# If the robot stands, the floor does that, and every wrench in the legs turns round. Left: held by the base, each joint
+# carries what hangs below it. Right: standing, each joint carries what is above it.
+# %% [markdown] lang="zh"
+# 如果机器人站着,这件事由地面来做,腿里的每个 wrench 都反过来。左:托住基座,每个关节承担挂在它下面的部分。
+# 右:站立,每个关节承担在它上面的部分。
+# %%
 ground = np.zeros((model.nbodies, 6))
 for name, force in zip(model.feet, tw.static_equilibrium(model, q).forces):
     body = model.frames[name].body
@@ -251,10 +307,10 @@ for name, force in zip(model.feet, tw.static_equilibrium(model, q).forces):
 
 sticks, red = plot.sticks(model, q), plot.COLOURS["vermilion"]
 figure, axes = plt.subplots(1, 2, figsize=(10, 4.6), layout="constrained", sharey=True)
-for ax, (title, f_ext) in zip(axes, {"held by the base with 157.8 N": None, "standing": ground}.items()):
-    through = tw.joint_wrenches(model, q, rest, rest, f_ext)
+for ax, (title, f_ext) in zip(axes, {"held by the base": None, "standing": ground}.items()):
+    through = tw.joint_wrenches(model, q, 0 * v, 0 * a, f_ext)
     lift = np.array([T.rotation @ f for T, f in zip(kin.placement, through[:, 3:])])[:, 2]
-    assert np.isclose(lift[1], up[2] if f_ext is None else 0)
+    assert np.isclose(abs(lift[1]), 9.81 * model.mass if f_ext is None else 0)
     for stick in sticks[sticks[:, 1, 0] > 0]:  # the front legs, seen from behind
         ax.plot(*stick[:, 1:].T, color=plot.COLOURS["grey"], linewidth=3)
     for i in range(2, 8):
@@ -266,13 +322,23 @@ for ax, (title, f_ext) in zip(axes, {"held by the base with 157.8 N": None, "sta
     ax.set(xlabel="y [m]", title=title, aspect="equal", xlim=(0.2, -0.24), ylim=(-0.02, 0.34))
 axes[0].set_ylabel("z [m]")
 plt.show()
+# %% [markdown] lang="en"
+# ## h, g, C and M from one function
+#
+# The equation of motion is $M(q)\,\dot v + h(q, v) = \tau$ with $h = C(q, v)\,v + g(q)$, and RNEA *is* its left side. So
+# all of its parts are in it.
+# %% [markdown] lang="zh"
+# ## 从一个函数得到 h、g、C、M
+#
+# 运动方程是 $M(q)\,\dot v + h(q, v) = \tau$,其中 $h = C(q, v)\,v + g(q)$,而 RNEA *就是*它的左边。所以各部分都包含在里面。
+# %%
+tw.ask("49.6-double", ...)
 
 
 # %% [markdown] lang="en"
-# **Your turn**, exercise 49.6.1: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
+# **Exercise 49.6.1.** Take $M$ out of `rnea`, without `crba`.
 # %% [markdown] lang="zh"
-# **轮到你了**,练习 49.6.1:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# **练习 49.6.1。** 不用 `crba`,把 $M$ 从 `rnea` 中取出来。
 # %%
 def mass_matrix_by_rnea(model, q):
     """Return the mass matrix, found with RNEA alone."""
@@ -280,30 +346,15 @@ def mass_matrix_by_rnea(model, q):
 
 
 tw.exercises.check("49.6.1", mass_matrix_by_rnea)
-# %% [markdown] lang="en"
-# Before you read on: every velocity doubles. How many times as large are the joint forces that come from
-# velocity?
-# %% [markdown] lang="zh"
-# 先想一想:所有速度加倍。由速度引起的关节力变成几倍?
-# %%
-guess = "…"  # your number
-# %%
-slow, fast = (tw.nonlinear_effects(model, q, k * v) - tw.gravity(model, q) for k in (1, 2))
-answer = np.linalg.norm(fast) / np.linalg.norm(slow)
-print(f"you: {guess}, computed: {answer:.4g} times")
-# %% [markdown] lang="en"
-# ## h, g, C and M from one function
-#
-# The equation of motion is $M(q)\,\dot v + h(q, v) = \tau$ with $h = C(q, v)\,v + g(q)$, and RNEA *is* its left side.
+# %% [markdown] lang="en" after="49.6.1"
 # If some arguments are zero, it returns the parts one by one: $g$ at rest, $h$ without acceleration, column $k$ of $M$
 # with a unit acceleration, no velocity and no gravity. It never builds $M$; that is why it is O(N): three products with
 # $X$ for each body, whatever the number of bodies.
-# %% [markdown] lang="zh"
-# ## 从一个函数得到 h、g、C、M
-#
-# 运动方程是 $M(q)\,\dot v + h(q, v) = \tau$,其中 $h = C(q, v)\,v + g(q)$,而 RNEA *就是*它的左边。把某些参数取为零,就能逐个得到各部分:静止时是 $g$,没有加速度时是 $h$;单位加速度、零速度、零重力时,是 $M$ 的第 $k$ 列。它从不构造 $M$,
+# %% [markdown] lang="zh" after="49.6.1"
+# 把某些参数取为零,就能逐个得到各部分:静止时是 $g$,没有加速度时是 $h$;单位加速度、零速度、零重力时,是 $M$ 的第 $k$ 列。它从不构造 $M$,
 # 所以是 O(N):每个刚体三次与 $X$ 相乘,刚体再多也是如此。
-# %%
+# %% after="49.6.1"
+rest = np.zeros(model.nv)
 g, h_qv = tw.rnea(model, q, rest, rest), tw.rnea(model, q, v, rest)
 assert np.allclose(g, tw.gravity(model, q))
 assert np.allclose(h_qv, tw.nonlinear_effects(model, q, v))
@@ -327,8 +378,7 @@ assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
 #    Inward goes $X^T$.
 # 3. Its loops begin at link 1, after the base: no line adds the base's own wrench.
 #
-# Colour marks what is wrong. The calves, with no children, come out right every time: a test on one joint, or at the
-# tips, would have passed.
+# Take the first of them.
 # %% [markdown] lang="zh"
 # ## 把伪代码运行一遍
 #
@@ -338,7 +388,13 @@ assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
 # 2. 它用 `X[i]^* * F[i]` 往回传,而 `X[i]` 是从父到子。可是 $X^* = X^{-T}$ 与 $X$ 同向:向外。向内的是 $X^T$。
 # 3. 循环从基座之后的连杆 1 开始:没有一行加上基座自己的 wrench。
 #
-# 有颜色的地方就是错的。小腿没有子连杆,每次都对:如果只测一个关节,或只测末端,就发现不了。
+# 先看第一处。
+# %%
+tw.ask("49.6-overwritten", ...)
+# %% [markdown] lang="en"
+# Colour marks what is wrong. The calves, with no children, come out right every time.
+# %% [markdown] lang="zh"
+# 有颜色的地方就是错的。小腿没有子连杆,每次都对。
 # %%
 as_printed = {  # in the listing, what stands there and what is printed
     "1. overwritten": ("tau[i] = S", "F[i] = B[i]; tau[i] = S"),
