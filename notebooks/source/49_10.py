@@ -10,17 +10,19 @@
 # 不管机器人的腿怎么动,外界能察觉的只有六个数:整体在质心 $G$ 处的动量 $h_G = (k_G, l_G)$,前一半是角动量,后一半是线动量。
 # 这个笔记本先把它算出来,再让 Go2 慢走、小跑(trot)、跳跑(bound),看看第 51 章的简化模型各自略去了什么。
 # %%
+import twistwrench as tw
+
+model = tw.load("go2")
+# %% setup="yes"
 import inspect
-from typing import NamedTuple
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-import twistwrench as tw
 from twistwrench import plot
 from twistwrench.algorithms.centroidal import centroidal_composite
+from twistwrench.exercises.questions.gaits import GAITS, acceleration, move
 
-model = tw.load("go2")
 rng = np.random.default_rng(10)
 q, v, a = model.random_configuration(rng=rng), *rng.standard_normal((2, model.nv))
 weight = model.mass * 9.81
@@ -29,16 +31,15 @@ tiny = 1e-100  # step of complex-step derivatives (49.2)
 # ## The momentum of the whole
 #
 # Each body has the momentum $I_i V_i$ in its own frame. It is a force-like vector: $X^*$ takes it to $G$, and there
-# momenta add. The linear half is $m v_G$, with the velocity of the centre of mass:
+# momenta add:
 #
-# $$h_G = \sum_i {}^G\!X_i^*\, I_i V_i = \begin{pmatrix} k_G \\ m v_G \end{pmatrix}.$$
+# $$h_G = \sum_i {}^G\!X_i^*\, I_i V_i = \begin{pmatrix} k_G \\ l_G \end{pmatrix}.$$
 # %% [markdown] lang="zh"
 # ## 整体的动量
 #
-# 每个刚体在自己的坐标系里有动量 $I_i V_i$。动量与力同类:用 $X^*$ 换到 $G$ 处,就可以相加。线动量那一半等于 $m v_G$,
-# 即总质量乘以质心速度:
+# 每个刚体在自己的坐标系里有动量 $I_i V_i$。动量与力同类:用 $X^*$ 换到 $G$ 处,就可以相加:
 #
-# $$h_G = \sum_i {}^G\!X_i^*\, I_i V_i = \begin{pmatrix} k_G \\ m v_G \end{pmatrix}.$$
+# $$h_G = \sum_i {}^G\!X_i^*\, I_i V_i = \begin{pmatrix} k_G \\ l_G \end{pmatrix}.$$
 # %%
 motion = tw.forward_kinematics(model, q, v)
 p_G = tw.center_of_mass(model, q)
@@ -46,10 +47,8 @@ to_G = [tw.force_transform(T.rotation, T.translation - p_G) for T in motion.plac
 bodies = range(1, model.nbodies)
 
 h_G = sum(to_G[i] @ model.inertia[i].momentum(motion.twist[i]) for i in bodies)
-v_G = tw.center_of_mass(model, model.integrate(q, 1j * tiny * v)).imag / tiny
 print("k_G", h_G[:3].round(4), "kg m²/s   l_G", h_G[3:].round(3), "kg m/s")
 assert np.allclose(h_G, tw.centroidal_momentum(model, q, v), rtol=1e-12)
-assert np.allclose(h_G[3:], model.mass * v_G, rtol=1e-12)
 # %% [markdown] lang="en"
 # ## The matrix $A_G$, in two ways
 #
@@ -63,7 +62,7 @@ assert np.allclose(h_G[3:], model.mass * v_G, rtol=1e-12)
 #
 # $h_G$ 对速度是线性的:$h_G = A_G\dot q$。代入 $V_i = J_i \dot q$,上面的和就给出
 # $A_G = \sum_i {}^G\!X_i^*\, I_i J_i$。(本章把惯量换到 $G$ 处,却让 $J_i$ 留在刚体自己的坐标系里:两个坐标系混用,得到的是另一个矩阵。)
-# 这样算,每个刚体都要碰到它上游的所有关节。**CCRBA** 对每个关节只算一次:关节 $i$ 的单位速度让它的子树像一个刚体那样运动,
+# 这样算,每个刚体都要碰到它内侧的所有关节。**CCRBA** 对每个关节只算一次:关节 $i$ 的单位速度让它的子树像一个刚体那样运动,
 # 动量是 $I^C_i S_i$(49.8),从 $G$ 处看就是第 $i$ 列。不用爬到基座,所以是 $O(N)$。
 # %%
 A_G = tw.centroidal_map(model, q)
@@ -82,10 +81,10 @@ assert np.allclose(A_G @ v, h_G, rtol=1e-12)
 
 
 # %% [markdown] lang="en"
-# **Your turn**, exercise 49.10.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
+# **Exercise 49.10.2.** Is $l_G = m v_G$? Take the linear momentum out of $A_G$, here and in your folder also out of Pinocchio's, and compute
+# $m v_G$ link by link.
 # %% [markdown] lang="zh"
-# **轮到你了**,练习 49.10.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
+# **练习 49.10.2。** $l_G = m v_G$ 吗?从 $A_G$ 中取出线动量(在你的文件夹里还要从 Pinocchio 的取),再逐个连杆计算 $m v_G$。
 # %%
 def linear_momentum(A_G, v):
     """Return the linear momentum l_G, from the centroidal momentum matrix of twistwrench."""
@@ -93,22 +92,37 @@ def linear_momentum(A_G, v):
 
 
 tw.exercises.check("49.10.2", linear_momentum)
+# %% after="49.10.2"
+v_G = tw.center_of_mass(model, model.integrate(q, 1j * tiny * v)).imag / tiny
+assert np.allclose(h_G[3:], model.mass * v_G, rtol=1e-12)
+
+
 # %% [markdown] lang="en"
-# Before you read on: in the air all twelve motors pull with 10 N m. How much does that add to the force on the
-# centre of mass, in N?
+# **Exercise 49.10.1.** The columns of the base are the momentum of one rigid body, since no joint moves. Build them from four quantities of the
+# whole robot. Which quarter is zero in every posture? The picture of $A_G$ comes later, folded.
 # %% [markdown] lang="zh"
-# 先想一想:机器人在空中,十二个电机都输出 10 N m。这给质心增加了多大的力,单位 N?
+# **练习 49.10.1。** 基座的列就是一个刚体的动量,因为关节不动。用整机的四个量把它们构造出来。哪一块在任何位形下都为零?
+# $A_G$ 的图在后面,是折叠的。
 # %%
-guess = "…"  # your number
-# %%
-still, pull = np.zeros(model.nv), np.concatenate([np.zeros(6), np.full(12, 10.0)])
-a_pulled = tw.aba(model, model.standing(), still, pull)
-rate = tw.centroidal_momentum_rate(model, model.standing(), still, a_pulled)
-answer = np.linalg.norm(rate[3:] - model.mass * model.gravity)
-print(f"you: {guess}, computed: {answer:.4g} N")
+def base_columns(R, m, c, I_G):
+    """Return the base's columns of A_G, from the robot as one rigid body: it is one if the joints do not move."""
+    return ...
+
+
+tw.exercises.check("49.10.1", base_columns)
 # %% [markdown] lang="en"
 # ## What changes it
 #
+# Which forces can change the momentum of the whole?
+# %% [markdown] lang="zh"
+# ## 什么能改变它
+#
+# 哪些力能改变整体的动量?
+# %%
+tw.ask("49.10-air", ...)
+# %%
+tw.ask("49.10-cat", ...)
+# %% [markdown] lang="en"
 # These are the equations of Newton and Euler for the whole robot. Only forces from outside act on it: the contacts, and
 # the weight, which has no moment about $G$.
 #
@@ -120,15 +134,13 @@ print(f"you: {guess}, computed: {answer:.4g} N")
 # We check this for a random state with random torques and foot forces, and then once more without foot forces: motors
 # can only change how the momentum is distributed inside the robot.
 # %% [markdown] lang="zh"
-# ## 什么能改变它
-#
 # 把牛顿和欧拉方程用于整个机器人:只有来自外界的力起作用,再加上重力,而重力对 $G$ 没有力矩。
 #
 # $$\dot h_G = \begin{pmatrix} \sum_k (p_k - p_G) \times f_k \\ \sum_k f_k + m g \end{pmatrix}.$$
 #
 # 这是点接触的情形,例如 Go2 的脚。脚底(面接触)还传递力矩 $\tau_k$(49.4),要加到上半部分里。
 #
-# 任意状态、任意力矩、任意足端力。然后去掉足端力再来一次:电机能改变的只是动量在内部怎样分配。
+# 取随机的状态、力矩和足端力来检验;再去掉足端力重做一次:电机能改变的只是动量在内部怎样分配。
 # %%
 S, J_c = tw.selection_matrix(model), tw.contact_jacobian(model, q, model.feet)
 torques, forces = 5 * rng.standard_normal(12), 30 * rng.standard_normal((4, 3))
@@ -170,7 +182,7 @@ at_feet = np.concatenate([np.cross(feet - p_G, forces).sum(axis=0), forces.sum(a
 assert np.allclose(to_G[1] @ M[:6], A_G, rtol=1e-12, atol=1e-12)
 assert np.allclose(to_G[1] @ h[:6], A_G_rate_v - gravity, rtol=1e-12, atol=1e-10)
 assert np.allclose(to_G[1] @ J_c[:, :6].T @ forces.ravel(), at_feet, rtol=1e-12, atol=1e-10)
-
+# %% after="49.10.1"
 leg_starts = [6, 9, 12, 15]
 figure, axes = plt.subplots(1, 3, figsize=(13, 3.2), width_ratios=[18, 7, 18], layout="constrained")
 moment_force = ["τx", "τy", "τz", "fx", "fy", "fz"]
@@ -183,14 +195,20 @@ for ax, A, title in ((axes[0], M[:6], "base's rows of M"), (axes[2], A_G, "A_G =
     ax.set_xticks([1, 4, 7, 10, 13, 16], ["ω", "v", "FL", "FR", "RL", "RR"])
 plt.show()
 # %% [markdown] lang="en"
-# ## At rest it is zero
+# ## At rest
 #
+# What is $\dot h_G$ of a robot that stands still?
+# %% [markdown] lang="zh"
+# ## 静止时
+#
+# 机器人静止站立时,$\dot h_G$ 是多少?
+# %%
+tw.ask("49.10-standing", ...)
+# %% [markdown] lang="en"
 # $\dot h_G = A_G\ddot q + \dot A_G\dot q$ depends only on the motion. At rest, with $\ddot q = 0$, it is zero, because
 # the ground balances the weight of a standing robot. The chapter expects the weight here, but $\dot h_G$ is the weight
 # only if the robot falls freely.
 # %% [markdown] lang="zh"
-# ## 静止时为零
-#
 # $\dot h_G = A_G\ddot q + \dot A_G\dot q$ 只取决于运动。静止且 $\ddot q = 0$ 时它为零,因为站立时重力与地面反力平衡。本章说这时应该得到重力,但只有机器人自由下落时,
 # $\dot h_G$ 才等于重力。
 # %%
@@ -207,60 +225,15 @@ assert np.allclose(held.forces.sum(axis=0) + model.mass * model.gravity, 0, rtol
 # ## Three gaits
 #
 # Now Go2 moves. The joints follow smooth curves: each leg sways, and its knee bends while it swings forward. The trunk
-# bobs, and in the bound it pitches. Position and velocity are given by formulas; the acceleration is the complex-step
+# bobs, and in the bound it pitches. `move` has the formulas of position and velocity; `acceleration` is the complex-step
 # derivative of the velocity. The motion is prescribed, and we compute the forces from outside that it needs.
 # %% [markdown] lang="zh"
 # ## 三种步态
 #
 # 现在让 Go2 动起来。关节走光滑的曲线:每条腿前后摆动,向前摆时弯膝;躯干上下起伏,跳跑(bound)时还会俯仰。
-# 位置和速度写成公式,加速度是速度的复数步长导数。运动是给定的,我们要问的是:外界得为此做些什么。
+# `move` 是位置和速度的公式,`acceleration` 是速度的复数步长导数。运动是给定的,我们要问的是:外界得为此做些什么。
 # %%
-class Gait(NamedTuple):
-    """Strides per second, phase of FL FR RL RR, sway of a leg, bend of a knee, bob [m] and pitch of the trunk [rad]."""
-
-    strides: float
-    phases: tuple
-    sway: float = 0.4
-    bend: float = 0.7
-    bob: float = 0.0095
-    pitch: float = 0.0
-
-
-gaits = {
-    "slow walk": Gait(0.5, (0, 0.5, 0.75, 0.25), sway=0.15, bend=0.3, bob=0.0),
-    "trot": Gait(2.5, (0, 0.5, 0.5, 0)),
-    "bound": Gait(2.5, (0, 0, 0.5, 0.5), pitch=0.15),
-}
-
-
-def move(t, gait):
-    """Return q and v at times t, which may be complex. A leg whose phase is 0 is in the middle of its swing."""
-    t, w, leg = np.asarray(t)[..., None], 2 * np.pi * gait.strides, stand[2]
-    phase = w * t + 2 * np.pi * np.array(gait.phases)
-    sway, d_sway = -gait.sway * np.sin(phase), -gait.sway * w * np.cos(phase)
-    lift = (1 + np.cos(phase)) / 2
-    knee, d_knee = 1.8 + gait.bend * lift**2, -gait.bend * w * lift * np.sin(phase)
-    legs = np.stack([0 * sway, sway + knee / 2, -knee], axis=-1).reshape(*t.shape[:-1], 12)
-    d_legs = np.stack([0 * sway, d_sway + d_knee / 2, -d_knee], axis=-1).reshape(*t.shape[:-1], 12)
-
-    speed = gait.sway * w * leg  # the feet that stand do not slide, nearly
-    z = leg + gait.bob * (1 - np.cos(2 * w * t)) + 0.19 * gait.pitch
-    tilt, d_tilt, d_z = (
-        -gait.pitch * np.cos(w * t),
-        gait.pitch * w * np.sin(w * t),
-        2 * gait.bob * w * np.sin(2 * w * t),
-    )
-    none, c, s = 0 * t, np.cos(tilt), np.sin(tilt)
-    q = [speed * t, none, z, none, np.sin(tilt / 2), none, np.cos(tilt / 2), legs]
-    v = [none, d_tilt, none, c * speed - s * d_z, none, s * speed + c * d_z, d_legs]  # in the axes of the base
-    return np.concatenate(q, axis=-1), np.concatenate(v, axis=-1)
-
-
-def acceleration(t, gait):
-    """Return the rate of v."""
-    return move(t + 1j * tiny, gait)[1].imag / tiny
-
-
+gaits = dict(zip(("slow walk", "trot", "bound"), GAITS.values()))
 for gait in gaits.values():  # v is the rate of q: see it at a foot
     t = rng.uniform(0, 1, 20)
     foot_v = np.matvec(tw.frame_jacobian(model, move(t, gait)[0], "FR_foot", "local_world_aligned"), move(t, gait)[1])
@@ -275,20 +248,21 @@ for ax, (name, gait) in zip(axes, gaits.items()):
         plot.side_view(model, posture, shift=0.85 * k, ax=ax)
     ax.axhline(0, color="k", linewidth=0.8)
     ax.set_ylim(-0.02, 0.36)
-    ax.set(title=f"{name}, {gait.sway * 2 * np.pi * gait.strides * stand[2]:.2f} m/s", xlabel="", xticks=[])
+    ax.set(title=f"{name}, {gait.speed:.2f} m/s", xlabel="", xticks=[])
 plt.show()
 # %% [markdown] lang="en"
 # ## $h_G$ over a stride
 #
 # In a trot and in a bound, the trunk rises twice in each stride, as $l_z$ shows. The forward speed is nearly constant,
-# and only its deviation from the mean is drawn. (Note the scales of $k_G$: each gait has its own.) The largest
-# difference is in $k_y$: in the trot one leg swings forward while its neighbour stands, and their angular momenta
-# nearly cancel; in the bound the trunk pitches and both pairs go with it.
+# and only its deviation from the mean is drawn. (Note the scales of $k_G$: each gait has its own. Your guess is grey.)
 # %% [markdown] lang="zh"
 # ## 一个步态周期里的 $h_G$
 #
-# 小跑和跳跑每个周期把躯干抬起两次:见 $l_z$。前进速度几乎不变,图中只画它围绕平均值的波动。(注意 $k_G$ 的刻度:每种步态各不相同。)差别最大的是 $k_y$:小跑时一条腿向前摆,
-# 旁边那条正在支撑,两者的角动量几乎抵消;跳跑时躯干俯仰,两对腿也随之摆动。
+# 小跑和跳跑每个周期把躯干抬起两次:见 $l_z$。前进速度几乎不变,图中只画它围绕平均值的波动。(注意 $k_G$ 的刻度:每种步态各不相同。
+# 你猜的那一列是灰色的。)
+# %%
+largest_k_y = tw.ask("49.10-gait", ...)
+largest_k_y
 # %%
 strides = {}
 for name, gait in gaits.items():
@@ -299,6 +273,8 @@ figure, axes = plt.subplots(2, 3, figsize=(12, 5), sharex=True, layout="constrai
 for (name, gait), column in zip(gaits.items(), axes.T):
     t, momentum = strides[name]
     wobble = momentum - momentum[:-1].mean(axis=0)
+    if largest_k_y.letter == "abc"[list(gaits).index(name)]:
+        column[0].set_facecolor("0.92")
     for k in range(3):
         column[0].plot(t * gait.strides, momentum[:, k], color=plot.XYZ[k], label=f"k_{'xyz'[k]}")
         column[1].plot(t * gait.strides, wobble[:, 3 + k], color=plot.XYZ[k], label=f"l_{'xyz'[k]}")
@@ -327,8 +303,8 @@ assert largest["trot"] < 0.1 * largest["bound"]
 # %% [markdown] lang="zh"
 # ## 用三种办法求 $\dot h_G$
 #
-# 用公式;看 $h_G$ 怎样变化(圆点:0.2 ms 的差分;断言里用复数步长,没有截断误差);以及用逆动力学:`rnea` 的前六个数就是外界必须施加在基座上的
-# wrench,换到 $G$ 处再加上重力,应该得到同样的结果。以跳跑为例:
+# 一、用公式;二、看 $h_G$ 的变化率(图中圆点为 0.2 ms 的差分,断言里用复数步长,没有截断误差);三、用逆动力学:`rnea` 的前六个数就是外界
+# 必须施加在基座上的 wrench,换到 $G$ 处再加上重力,应该得到同样的结果。以跳跑为例:
 # %%
 def wrench_at_G(q, v, a):
     """Return what rnea asks of the world, at the centre of mass, in the axes of the world."""
@@ -362,12 +338,39 @@ axes[1].text(t[0], -weight, "−m g: free fall", ha="left", va="bottom", fontsiz
 axes[1].set_ylim(-175, 175)
 plt.show()
 assert np.abs(difference - by_formula).max() < 1e-4 * np.abs(by_formula).max()
+
+
 # %% [markdown] lang="en"
 # ## When is $\dot k_G \approx 0$?
 #
 # The linear inverted pendulum says: always. How wrong that is, the centre of pressure $c$ tells in millimetres: the
-# point of the ground about which its forces $f$ have no moment along the ground. Their moment about $G$ is $\dot k_G$,
-# so with the height $z$ of $G$ above the ground, $(c - p_G) \times f = \dot k_G$ in x and y gives
+# point of the ground about which its forces $f$ have no moment along the ground. Their moment about $G$ is $\dot k_G$, so
+# with the height $z$ of $G$ above the ground, $(c - p_G) \times f = \dot k_G$ in x and y.
+# %% [markdown] lang="zh"
+# ## 什么时候 $\dot k_G \approx 0$？
+#
+# 线性倒立摆(LIPM)说:总是如此。错多少,可以用压力中心 $c$ 以毫米来衡量:它是地面上的一点,地面的力 $f$ 对该点没有沿地面方向的力矩。
+# 这些力对 $G$ 的力矩就是 $\dot k_G$。设 $G$ 离地面的高度为 $z$,就有 $(c - p_G) \times f = \dot k_G$ 的 x、y 分量。
+# %% [markdown] lang="en"
+# **Exercise 49.10.3.** Keep the height constant, and solve this for the horizontal acceleration of the centre of mass. What does $\dot k_G$ add? The
+# second part, in your folder, asks what happens at another pace. Guess the next two before you open what is folded.
+# %% [markdown] lang="zh"
+# **练习 49.10.3。** 设高度不变,由此解出质心的水平加速度。$\dot k_G$ 多出什么项?第二部分在你的文件夹里,问的是换一种节奏会怎样。
+# 先猜下面两题,再打开折叠的内容。
+# %%
+def com_acceleration(p_G, p, k_rate, m):
+    """Return the horizontal acceleration of a centre of mass that stays at its height, with k̇_G not left out."""
+    return ...
+
+
+tw.exercises.check("49.10.3", com_acceleration)
+# %%
+tw.ask("49.10-load", ...)
+# %%
+shift = tw.ask("49.10-shift", ...)
+shift
+# %% [markdown] lang="en" after="49.10.3"
+# Solved for the centre of pressure, it reads
 #
 # $$c_x = x_G - \frac{z f_x + \dot k_y}{f_z}, \qquad c_y = y_G - \frac{z f_y - \dot k_x}{f_z}.$$
 #
@@ -375,17 +378,14 @@ assert np.abs(difference - by_formula).max() < 1e-4 * np.abs(by_formula).max()
 # weight only if the height is constant; a lightly loaded foot shifts far for a small moment. ($\dot k_z$ shifts nothing.
 # Friction supplies it.) To check this, Go2 stands on all four feet and accelerates its trunk; the forces of the feet
 # show where $c$ is:
-# %% [markdown] lang="zh"
-# ## 什么时候 $\dot k_G \approx 0$？
-#
-# 线性倒立摆(LIPM)说:总是如此。错多少,可以用压力中心 $c$ 以毫米来衡量:它是地面上的一点,地面的力 $f$ 对该点没有沿地面方向的力矩。
-# 这些力对 $G$ 的力矩就是 $\dot k_G$。设 $G$ 离地面的高度为 $z$,取 $(c - p_G) \times f = \dot k_G$ 的 x、y 分量,得到
+# %% [markdown] lang="zh" after="49.10.3"
+# 对压力中心求解,得到
 #
 # $$c_x = x_G - \frac{z f_x + \dot k_y}{f_z}, \qquad c_y = y_G - \frac{z f_y - \dot k_x}{f_z}.$$
 #
 # 忽略 $\dot k_G$,压力中心就偏了 $|(\dot k_x, \dot k_y)| / f_z$。法向力 $f_z = m(g + \ddot z)$ 只有在高度不变时才等于重力;脚上压力很小时,
 # 很小的力矩也会让压力中心移动很远。($\dot k_z$ 不移动压力中心,它由摩擦提供。)检验一下:Go2 四脚站立,躯干加速,由足端力就能看出 $c$ 在哪里:
-# %%
+# %% after="49.10.3"
 contacts = [tw.PointContact(foot, 0.6) for foot in model.feet]
 J_stand = tw.contact_jacobian(model, stand, model.feet)
 trunk = np.array([8.0, -6, 0, 1, 0.5, 3])  # rad/s² and m/s²: it rolls, pitches, and rises
@@ -403,15 +403,15 @@ assert np.allclose(standing[:, 2], 0, atol=1e-12)
 assert np.allclose(l_rate - model.mass * model.gravity, f.sum(axis=0), rtol=1e-10, atol=1e-10)
 assert np.allclose(c[:2] - without, np.array([-k_y, k_x]) / f_z, rtol=0, atol=1e-12)
 assert f_z > 1.2 * weight  # with the weight in place of f_z it would not come out
-# %% [markdown] lang="en"
+# %% [markdown] lang="en" after="49.10.3"
 # The same gait at different frequencies: velocities grow with $f$, accelerations with $f^2$, and so does the moment.
 # The shift does so only while the load hardly changes. But the trunk bobs faster as well, and near 2.6 strides per
 # second it all but unloads the feet: the shift runs away. Beyond that they would have to pull: there is no centre of
 # pressure, and no such gait.
-# %% [markdown] lang="zh"
+# %% [markdown] lang="zh" after="49.10.3"
 # 同一种步态用不同的频率来走:速度与 $f$ 成正比,加速度与 $f^2$ 成正比,力矩也与 $f^2$ 成正比。压力中心的偏移只有在法向力几乎不变时才如此。但躯干的起伏也随之加快,接近每秒 2.6 步时脚上几乎没有压力,偏移急剧增大;
 # 超过每秒 2.6 步,脚就得往上拉地面:压力中心不存在,这样的步态也不存在。
-# %%
+# %% after="49.10.3"
 frequencies = np.geomspace(0.25, 4, 17)
 moments, shifts = {}, {}
 for name in ("trot", "bound"):
@@ -450,14 +450,16 @@ plt.show()
 # We also measure two further assumptions. The LIPM keeps the height constant, because otherwise it is not linear: with
 # $\ddot z \ne 0$ the force along the leg is scaled by $1 + \ddot z/g$. The single rigid body (SRBM) keeps six
 # equations, but its momentum is that of a body that turns with the trunk, $k_G \approx \bar I \omega$, with the inertia
-# of the standing robot. The contribution of the swinging legs is missing; if the trunk does not turn, this is all of
-# $k_G$. The bars divide the moment left out by the load at the same instant: the shift of the centre of pressure.
+# of the standing robot. The contribution of the swinging legs is missing. The bars divide the moment left out by the
+# load at the same instant: the shift of the centre of pressure, with your guess for the trot beside it.
 # %% [markdown] lang="zh"
 # ## LIPM 与 SRBM
 #
 # 还有两个假设值得用数字看一看。LIPM 还假设高度不变,否则它就不是线性的:$\ddot z \ne 0$ 时,沿腿的力要乘以 $1 + \ddot z/g$。
 # 单刚体模型(SRBM)保留了六个方程,但它的动量是随躯干转动的一个刚体的动量,$k_G \approx \bar I \omega$,惯量取站立时的值。
-# 摆动的腿所贡献的部分就没有了;若躯干不转,丢掉的就是全部 $k_G$。图中的柱高是漏掉的力矩除以同一时刻的法向力,即压力中心的偏移。
+# 摆动的腿所贡献的部分就没有了。图中的柱高是漏掉的力矩除以同一时刻的法向力,即压力中心的偏移;你对小跑的猜测画在旁边。
+# %%
+tw.ask("49.10-rigid", ...)
 # %%
 inertia = tw.centroidal_map(model, stand)[:3, :3]  # the base is level: of the whole robot about G, in its axes
 
@@ -492,6 +494,7 @@ ax.axhline(half_length, color="k", linestyle=":")
 ax.set(xticks=x, xticklabels=off, yscale="log", ylim=(0.1, 2000), ylabel="shift of the centre of pressure [mm]")
 ax.set_title("moment left out, over the load")
 ax.legend(loc="upper left")
+shift.draw(ax, "y")
 plt.show()
 
 assert max(off["slow walk"]) < 0.5  # half a millimetre, and

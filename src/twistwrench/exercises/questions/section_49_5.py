@@ -34,7 +34,7 @@ def plate() -> Facts:
 
 
 def antisymmetric() -> Facts:
-    """What changes its sign: the matrix V× when transposed, or the product when its factors are exchanged."""
+    """Whether it is the matrix V× that is antisymmetric, or the product."""
     V, W = np.random.default_rng(5).standard_normal((2, 6))
     cross = tw.cross_motion(V)
     matrix, product = np.allclose(cross, -cross.T), np.allclose(cross @ W, -tw.cross_motion(W) @ V)
