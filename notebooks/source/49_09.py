@@ -13,31 +13,46 @@
 # 每个腿足机器人的控制器里都有这一行。这个笔记本以站立的 Go2 为例把它拆开来看:电机能影响哪些行,地面怎样托住重量,
 # 为什么足端力不唯一,以及推它一下会发生什么。
 # %%
+import twistwrench as tw
+
+model = tw.load("go2")
+q = model.standing()
+# %% setup="yes"
 import matplotlib.pyplot as plt
 import numpy as np
 
-import twistwrench as tw
 from twistwrench import plot
 
-model = tw.load("go2")
-rng = np.random.default_rng(9)
-q, rest = model.standing(), np.zeros(model.nv)
+rng, rest = np.random.default_rng(9), np.zeros(model.nv)
 weight = model.mass * 9.81
 feet = np.array([tw.frame_placement(model, q, foot).translation for foot in model.feet])
-
+# %%
 d, S = tw.dynamics(model, q, rest), tw.selection_matrix(model)
 print({"M": d.M.shape, "h": d.h.shape, "S": S.shape, "J_c": d.J_c.shape})
+
+
 # %% [markdown] lang="en"
 # ## What stands where
 #
 # Eighteen rows: six for the base, three for each leg. $S^T$ puts the twelve torques into the rows of the joints. The
 # columns of $J_c^T$ are the forces at the four feet, three components each. (The chapter writes $\dot q$ for what the
-# code calls `v`: eighteen numbers. The derivative of `q` would have nineteen.)
+# code calls `v`: eighteen numbers. The derivative of `q` would have nineteen.) $J_c\dot q$ is the velocity of the feet.
 # %% [markdown] lang="zh"
 # ## 各个量的位置
 #
 # 十八行:基座六行,每条腿三行。$S^T$ 把十二个力矩放进关节行。$J_c^T$ 的列对应四只脚的力,每只脚三个分量。
-# (本章写的 $\dot q$ 就是代码里的 `v`,有十八个数;`q` 真正的导数有十九个数。)
+# (本章写的 $\dot q$ 就是代码里的 `v`,有十八个数;`q` 真正的导数有十九个数。)$J_c\dot q$ 是各只脚的速度。
+# %% [markdown] lang="en"
+# **Exercise 49.9.2.** Write $S^T\tau$ without any matrix; $S$ itself is the other half of the exercise, in your folder.
+# %% [markdown] lang="zh"
+# **练习 49.9.2。** 不用矩阵,写出 $S^T\tau$;$S$ 本身是这道练习的另一半,在你的文件夹里。
+# %%
+def on_all_rows(tau):
+    """Return Sᵀτ without building S."""
+    return ...
+
+
+tw.exercises.check("49.9.2", on_all_rows)
 # %%
 rows = [*plot.ANGULAR_LINEAR, *(name.removesuffix("_joint") for name in model.joint_names[2:])]
 figure, axes = plt.subplots(1, 3, figsize=(12, 5.2), width_ratios=[18, 12, 12], layout="constrained")
@@ -54,20 +69,6 @@ assert not S.T[:6].any()  # no torque in the base's rows
 leg_of_column = np.repeat(np.arange(4), 3)
 assert (d.J_c.T[6:][leg_of_column[:, None] != leg_of_column] == 0).all()  # a foot's force acts on its own leg …
 assert np.array_equal(np.abs(d.J_c.T[3:6]) > 0.5, np.tile(np.eye(3, dtype=bool), 4))  # … and by the base
-
-
-# %% [markdown] lang="en"
-# **Your turn**, exercise 49.9.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
-# %% [markdown] lang="zh"
-# **轮到你了**,练习 49.9.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
-# %%
-def on_all_rows(tau):
-    """Return Sᵀτ without building S."""
-    return ...
-
-
-tw.exercises.check("49.9.2", on_all_rows)
 # %% [markdown] lang="en"
 # ## It holds in every state
 #
@@ -109,8 +110,7 @@ assert np.abs(left - right).max() < 1e-12 * np.abs(right).max()
 # M_{jb}\ddot q_b + M_{jj}\ddot q_j + h_j = \tau + J_{c,j}^T\lambda.$$
 #
 # The first has no $\tau$: the robot is **underactuated**. The chapter concludes that contact forces alone decide how the
-# base moves. Not quite, since $M_{bj}\ddot q_j$ stands there as well: in the air, a motor that swings a leg turns the
-# trunk. What no motor can change is the momentum of the whole (49.10).
+# base moves. Do you agree?
 # %% [markdown] lang="zh"
 # ## 基座行
 #
@@ -119,9 +119,30 @@ assert np.abs(left - right).max() < 1e-12 * np.abs(right).max()
 # $$M_{bb}\ddot q_b + M_{bj}\ddot q_j + h_b = J_{c,b}^T\lambda, \qquad
 # M_{jb}\ddot q_b + M_{jj}\ddot q_j + h_j = \tau + J_{c,j}^T\lambda.$$
 #
-# 第一式里没有 $\tau$:机器人是**欠驱动**的。本章由此说基座的运动完全由接触力决定。其实不尽然,因为式中还有
-# $M_{bj}\ddot q_j$:在空中,电机摆动一条腿,躯干就会转。电机改变不了的是整个机器人的动量(49.10)。
+# 第一式里没有 $\tau$:机器人是**欠驱动**的。本章由此说基座的运动完全由接触力决定。你同意吗?
 # %%
+tw.ask("49.9-kick", ...)
+
+
+# %% [markdown] lang="en"
+# **Exercise 49.9.3.** Choose the accelerations of the joints and the forces at the feet at will. What is then left for the base and for the
+# motors? And why is it these six rows that a controller calls the constraint?
+# %% [markdown] lang="zh"
+# **练习 49.9.3。** 关节加速度和足端力任意选定,基座和电机还剩下什么可选?为什么控制器把恰恰这六行叫作约束?
+# %%
+def complete_motion(M, h, J_c, qdd_joints, forces):
+    """Return the motion and the torques that belong to chosen joint accelerations and contact forces."""
+    return ...
+
+
+tw.exercises.check("49.9.3", complete_motion)
+# %% [markdown] lang="en" after="49.9.3"
+# Not quite, since $M_{bj}\ddot q_j$ stands there as well: in the air, a motor that swings a leg turns the
+# trunk. What no motor can change is the momentum of the whole (49.10).
+# %% [markdown] lang="zh" after="49.9.3"
+# 其实不尽然,因为式中还有
+# $M_{bj}\ddot q_j$:在空中,电机摆动一条腿,躯干就会转。电机改变不了的是整个机器人的动量(49.10)。
+# %% after="49.9.3"
 knee = model.v_slice[model.joint_id("FL_calf_joint")].start
 falling, kicking = tw.aba(model, q, np.zeros((2, 18)), np.stack([rest, np.eye(18)[knee]]))  # the second: 1 N m
 change = kicking - falling
@@ -129,18 +150,49 @@ print("the base's acceleration changes by", change[:3].round(2), "rad/s² and", 
 assert np.abs(change[:6]).max() > 1
 assert np.allclose(d.M[:6] @ kicking + d.h[:6], 0, rtol=1e-12, atol=1e-10)  # M_bb a_b + M_bj a_j + h_b = 0
 assert np.allclose(d.A_G @ change, 0, rtol=1e-12, atol=1e-12)
+
+
 # %% [markdown] lang="en"
 # ## Standing still
 #
-# At rest $\dot q = \ddot q = 0$, and $h$ is gravity alone: $g = S^T\tau + J_c^T\lambda$. The base's six rows know no
-# torques. They say that the feet's forces carry the weight and balance its moment, and they are solved first, for
-# $\lambda$. The joints' rows then say what the motors do: $\tau = g_j - J_{c,j}^T\lambda$.
+# At rest $\dot q = \ddot q = 0$. What is left of the equation, and which of its rows say what?
 # %% [markdown] lang="zh"
 # ## 静止站立
 #
-# 静止时 $\dot q = \ddot q = 0$，$h$ 只剩重力:$g = S^T\tau + J_c^T\lambda$。基座的六行里没有力矩,说的是足端力要托住重量、
-# 平衡重力的力矩,所以先由它们解出 $\lambda$。关节行再给出电机要做什么:$\tau = g_j - J_{c,j}^T\lambda$。
+# 静止时 $\dot q = \ddot q = 0$。方程还剩下什么,哪些行说的是什么?
+# %% [markdown] lang="en"
+# **Exercise 49.9.1.** Write down the equation at rest, and what given torques and forces leave unbalanced in it.
+# %% [markdown] lang="zh"
+# **练习 49.9.1。** 写出静止时的方程,以及给定力矩和足端力时方程里不平衡的部分。
 # %%
+def out_of_balance(model, q, tau, forces):
+    """Return the residual of the equation of a robot at rest: g − Sᵀτ − J_cᵀλ."""
+    return ...
+
+
+tw.exercises.check("49.9.1", out_of_balance)
+
+
+# %% [markdown] lang="en"
+# **Exercise 49.11.3.** This one belongs to the last section, but its answer would be told here. The chapter fits $g = J_c^T\lambda$ by least
+# squares, all eighteen rows. Do you agree? Find the forces of the feet, and the torques.
+# %% [markdown] lang="zh"
+# **练习 49.11.3。** 这道题属于最后一节,但答案会在这里讲到。本章对 $g = J_c^T\lambda$ 的全部十八行做最小二乘。你同意吗?求足端力和力矩。
+# %%
+def standing_forces(g, J_c):
+    """Return the contact forces and torques that hold a robot at rest."""
+    return ...
+
+
+tw.exercises.check("49.11.3", standing_forces)
+# %% [markdown] lang="en" after="49.9.1"
+# $h$ is gravity alone: $g = S^T\tau + J_c^T\lambda$. The base's six rows know no
+# torques. They say that the feet's forces carry the weight and balance its moment, and they are solved first, for
+# $\lambda$. The joints' rows then say what the motors do: $\tau = g_j - J_{c,j}^T\lambda$.
+# %% [markdown] lang="zh" after="49.9.1"
+# $h$ 只剩重力:$g = S^T\tau + J_c^T\lambda$。基座的六行里没有力矩,说的是足端力要托住重量、
+# 平衡重力的力矩,所以先由它们解出 $\lambda$。关节行再给出电机要做什么:$\tau = g_j - J_{c,j}^T\lambda$。
+# %% after="49.11.3"
 g = tw.gravity(model, q)
 lam = np.linalg.lstsq(d.J_c[:, :6].T, g[:6])[0]  # six equations for twelve unknowns: the smallest solution
 tau = (g - d.J_c.T @ lam)[6:]
@@ -151,7 +203,7 @@ assert np.allclose(held.tau, tau, rtol=1e-12, atol=1e-10)
 assert np.allclose(S.T @ tau + d.J_c.T @ lam, g, rtol=1e-12, atol=1e-10)
 assert np.isclose(held.forces[:, 2].sum(), weight)
 assert np.abs(tau).max() < model.effort_limit[6:].min()
-
+# %%
 ax = plot.foot_forces(model, q, held.forces)
 ax.legend(loc="upper left")
 plt.show()
@@ -159,18 +211,14 @@ print("torques, hip thigh calf, of FL FR RL RR [N m]:", *tau.round(2).reshape(4,
 # %% [markdown] lang="en"
 # The dotted line drops from the centre of mass to the floor, inside the polygon between the feet. It lies 1.7 mm behind
 # the middle, so the rear feet carry a little more. So "about $mg/4$ each" is only approximately true.
-#
-# ## What goes wrong with $g = J_c^T\lambda$
-#
-# Exercise 49.11.3 of the chapter leaves $S^T\tau$ out and fits all eighteen rows by least squares. Foot forces alone
-# cannot hold twelve joints as well; the fit is a compromise that satisfies nothing:
 # %% [markdown] lang="zh"
 # 虚线从质心垂到地面,落在四脚围成的支撑多边形里。它在中心之后 1.7 mm,所以后脚承担得略多。所以"每只脚约 $mg/4$"只是近似成立。
-#
-# ## 写成 $g = J_c^T\lambda$ 错在哪里
-#
-# 本章练习 49.11.3 漏掉了 $S^T\tau$,对全部十八行做最小二乘。仅靠足端力是撑不住十二个关节的,拟合结果是一个折中,没有一行得到满足:
-# %%
+# %% [markdown] lang="en" after="49.11.3"
+# The chapter leaves $S^T\tau$ out and fits all eighteen rows by least squares. Foot forces alone cannot hold twelve joints
+# as well; the fit is a compromise that satisfies nothing:
+# %% [markdown] lang="zh" after="49.11.3"
+# 本章漏掉了 $S^T\tau$,对全部十八行做最小二乘。仅靠足端力是撑不住十二个关节的,拟合结果是一个折中,没有一行得到满足:
+# %% after="49.11.3"
 fitted = np.linalg.lstsq(d.J_c.T, g)[0]
 residual = d.J_c.T @ fitted - g
 print(f"left over {np.linalg.norm(residual):.1f}; the feet carry {fitted[2::3].sum():.2f} N of {weight:.2f} N")
@@ -188,16 +236,6 @@ ax.set_xticks(x, ["τx", "τy", "τz", "fx", "fy", "fz", *rows[6:]], rotation=60
 ax.set(ylabel="out of balance [N m, N]", title="equilibrium, row by row", ylim=(-7.5, 3))
 ax.legend(loc="upper right", fontsize=8)
 plt.show()
-# %% [markdown] lang="en"
-# Before you read on: four feet push with three numbers each, and the base has six equations. Of how many numbers
-# of the contact forces are you free to choose?
-# %% [markdown] lang="zh"
-# 先想一想:四只脚各有三个力的分量,基座有六个方程。接触力中有几个数可以自由选择?
-# %%
-guess = "…"  # your number
-# %%
-answer = 12 - np.linalg.matrix_rank(tw.contact_jacobian(model, model.standing(), model.feet)[:, :6])
-print(f"you: {guess}, computed: {answer:.4g} numbers")
 # %% [markdown] lang="en"
 # ## Many ways to stand
 #
@@ -230,11 +268,17 @@ for k, (name, forces) in enumerate(family.items(), start=1):
     assert np.allclose(d.J_c[:, :6].T @ forces.ravel(), g[:6], rtol=1e-12, atol=1e-10)  # the base stands in all three
 plt.show()
 # %% [markdown] lang="en"
-# They make no difference for the base, but they do for the motors. A controller can use this freedom, for example to
+# They make no difference for the base, but they do for the motors.
+# %% [markdown] lang="zh"
+# 这三种力对基座没有区别,对电机却有区别。
+# %%
+tw.ask("49.9-least", ...)
+# %% [markdown] lang="en"
+# A controller can use this freedom, for example to
 # make the torques as small as possible. It must stay within limits: the ground can push but not pull, and friction
 # limits how far a force may be inclined (49.4).
 # %% [markdown] lang="zh"
-# 这三种力对基座没有区别,对电机却有区别。控制器可以利用这种自由,例如让力矩尽量小。但也要遵守限制:地面只能推、不能拉,
+# 控制器可以利用这种自由,例如让力矩尽量小。但也要遵守限制:地面只能推、不能拉,
 # 而摩擦限制了力能倾斜多少(49.4)。
 # %%
 free = np.linalg.svd(d.J_c[:, :6].T)[2][6:].T  # twelve rows, six directions without effect on the base
@@ -265,13 +309,20 @@ assert np.isclose(shift[standing].max(), vertical[60].min(), atol=1)  # until th
 # %% [markdown] lang="en"
 # ## A push
 #
-# Somebody pushes the trunk to the left with up to 100 N, and the robot is to stay at rest. `rnea` takes the push as
-# `f_ext` and returns what the ground must supply. Vertical load moves to the left feet; the **centre of pressure**, the
-# mean of the foot positions weighted with it, moves by push × height / weight:
+# Somebody pushes the trunk to the left with up to 100 N, and the robot is to stay at rest.
 # %% [markdown] lang="zh"
 # ## 推一下
 #
-# 有人向左推躯干,最大 100 N,而机器人要保持静止。`rnea` 把推力当作 `f_ext`,算出地面必须提供什么。竖直载荷移向左脚;
+# 有人向左推躯干,最大 100 N,而机器人要保持静止。
+# %%
+tips = tw.ask("49.9-tipping", ...)
+tips
+# %% [markdown] lang="en"
+# `rnea` takes the push as
+# `f_ext` and returns what the ground must supply. Vertical load moves to the left feet; the **centre of pressure**, the
+# mean of the foot positions weighted with it, moves by push × height / weight:
+# %% [markdown] lang="zh"
+# `rnea` 把推力当作 `f_ext`,算出地面必须提供什么。竖直载荷移向左脚;
 # **压力中心**,即以竖直力为权的脚位置平均值,移动了 推力 × 高度 / 重量:
 # %%
 pushes = np.linspace(0, 100, 51)
@@ -311,23 +362,28 @@ chart.axvline(tipping, color="k", linestyle=":")
 chart.axhline(0, color="k", linewidth=0.8)
 chart.set(xlabel="push [N]", ylabel="vertical force [N]", title="the left feet take over")
 chart.legend(fontsize=8)
+tips.draw(chart)
 plt.show()
 # %% [markdown] lang="en"
-# Above 84.6 N, the centre of pressure would have to lie outside the polygon, which is impossible with forces that only
+# Beyond the dotted line, the centre of pressure would have to lie outside the polygon, which is impossible with forces that only
 # push. So the robot must move, or it tips over.
 #
 # ## Straight knees
 #
 # The chapter warns that a straight knee makes $J_c$ lose rank. It does make the leg's own 3 × 3 Jacobian singular: the
-# foot can no longer move along the leg. But $J_c$ has the base's columns as well. We stretch all four legs and look at the
-# smallest singular value of each:
+# foot can no longer move along the leg. We stretch all four legs.
 # %% [markdown] lang="zh"
-# 超过 84.6 N,压力中心就得跑到多边形外面。只能推的足端力做不到这一点:机器人要么移动,要么翻倒。
+# 超过虚线处的推力,压力中心就得跑到多边形外面。只能推的足端力做不到这一点:机器人要么移动,要么翻倒。
 #
 # ## 伸直的膝
 #
-# 本章警告说,膝伸直会使 $J_c$ 降秩。单条腿自己的 3 × 3 雅可比矩阵确实会奇异:脚再也不能沿腿的方向移动。但 $J_c$ 还有基座的列。
-# 我们把四条腿一起伸直,看各自的最小奇异值:
+# 本章警告说,膝伸直会使 $J_c$ 降秩。单条腿自己的 3 × 3 雅可比矩阵确实会奇异:脚再也不能沿腿的方向移动。我们把四条腿一起伸直。
+# %%
+tw.ask("49.9-stretch", ...)
+# %% [markdown] lang="en"
+# The smallest singular value of a leg's own Jacobian, and that of $J_c$, which has the base's columns as well:
+# %% [markdown] lang="zh"
+# 单条腿的雅可比矩阵的最小奇异值,与 $J_c$(还含有基座的列)的最小奇异值:
 # %%
 bend = np.linspace(1.8, 0, 46)
 stretched = np.tile(q, (46, 1))
@@ -349,12 +405,17 @@ plt.show()
 # %% [markdown] lang="en"
 # The six columns of the base compensate for the direction that each leg has lost, as long as these four directions do
 # not depend on each other. Here they do not: the hips of Go2 are 95.5 mm wide, so with the hip joints at 0 the legs
-# lean outward. Turn each hip until the foot is right below it. Now the four legs are parallel, and the rank falls to
-# 11: no motion of the robot can change the length of one leg alone, and the share of the load on each of the four
-# parallel legs is not determined.
+# lean outward. Turn each hip until the foot is right below it.
 # %% [markdown] lang="zh"
 # 每条腿失去一个方向,基座的六列可以补上,只要这四个方向彼此不相关。这里正是如此:Go2 的髋宽 95.5 mm,髋关节为 0 时腿向外斜。
-# 再转动髋关节,让每只脚都在髋的正下方。这时四条腿平行,秩降为 11:任何运动都不能只改变一条腿的长度,
+# 再转动髋关节,让每只脚都在髋的正下方。
+# %%
+tw.ask("49.9-upright", ...)
+# %% [markdown] lang="en"
+# Now the four legs are parallel, and the rank falls: no motion of the robot can change the length of one leg alone, and the share of the load on each of the four
+# parallel legs is not determined.
+# %% [markdown] lang="zh"
+# 这时四条腿平行,秩会下降:任何运动都不能只改变一条腿的长度,
 # 四根直立的柱子怎样分担重量也就无法确定。
 # %%
 upright = stretched[-1].copy()
@@ -363,10 +424,11 @@ of_upright = np.linalg.svd(tw.contact_jacobian(model, upright, model.feet))[1]
 print(f"smallest singular value {of_upright.min():.1e}, the next {of_upright[-2]:.2f}")
 assert of_upright.min() < 1e-12 < 1e-2 < of_upright[-2]
 # %% [markdown] lang="en"
-# Redundant contacts also reduce the rank. The two ends of one calf have a fixed distance, so only five of their six
-# velocity components are independent.
+# Redundant contacts also reduce the rank.
 # %% [markdown] lang="zh"
-# 多余的接触也会使秩下降。同一根小腿的两端距离固定:它们的六个速度分量里只有五个是独立的。
+# 多余的接触也会使秩下降。
+# %%
+tw.ask("49.9-calf", ...)
 # %%
 twice = tw.contact_jacobian(model, q, ["FL_foot", "FL_calf"])
 assert np.linalg.matrix_rank(twice) == 5
