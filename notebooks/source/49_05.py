@@ -158,7 +158,6 @@ for I_i, T in zip(model.inertia[1:], in_base[1:]):
     summed += np.linalg.inv(X).T @ I_i.matrix() @ np.linalg.inv(X)
 assert np.allclose(locked.matrix(), summed, atol=1e-12)
 assert np.isclose(locked.mass, 16.085)
-assert np.allclose(locked.matrix(), tw.crba(model, q)[:6, :6], atol=1e-12)  # the base's own block of M
 # %%
 figure = plt.figure(figsize=(12, 4.6), layout="constrained")
 for k in range(2):

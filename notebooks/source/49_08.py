@@ -10,31 +10,46 @@
 # $M(q)$ 是机器人在每个关节处的惯量,以及一个关节与另一个关节的耦合。RNEA 和 ABA 都用不着它,
 # 而求解二次规划的控制器需要它。这个笔记本弄清 $M$ 的每个元素从哪里来,哪些元素为零、为什么为零,以及计算的代价。
 # %%
+import twistwrench as tw
+
+model = tw.load("go2")
+# %% setup="yes"
 import inspect
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-import twistwrench as tw
 from twistwrench import plot
 from twistwrench.algorithms.crba import composite_rigid_body
 
-model = tw.load("go2")
 rng = np.random.default_rng(8)
 q = model.random_configuration(rng=rng)  # nothing is zero by accident here
 rest = np.zeros(model.nv)
 names = [name.removesuffix("_joint") for name in model.joint_names]
+
+
 # %% [markdown] lang="en"
 # ## A column of $M$ is an experiment
 #
 # The equation of motion is $\tau = M\ddot q + h$. Let the robot be at rest, switch gravity off, and require the
 # acceleration 1 of one joint and 0 of all others. The forces that this needs are one column of $M$. `rnea` can do this
-# experiment; the part of gravity is subtracted. Eighteen experiments at once:
+# experiment; the part of gravity is subtracted. All experiments at once:
 # %% [markdown] lang="zh"
 # ## $M$ 的一列就是一次实验
 #
 # 运动方程是 $\tau = M\ddot q + h$。让机器人静止,关掉重力,要求某一个关节的加速度为 1,其余全为 0。
-# 所需的力就是 $M$ 的一列。`rnea` 可以做这个实验,再把重力的部分减掉。十八次实验一起做:
+# 所需的力就是 $M$ 的一列。`rnea` 可以做这个实验,再把重力的部分减掉。所有实验一起做:
+# %% [markdown] lang="en"
+# **Exercise 49.8.2.** How large is $M$ of Go2 with its floating base, and with a fixed one? And where in the larger matrix is the smaller?
+# %% [markdown] lang="zh"
+# **练习 49.8.2。** Go2 带浮动基座时 $M$ 多大,固定基座时多大?小矩阵在大矩阵的什么位置?
+# %%
+def held_mass_matrix(M):
+    """Return the mass matrix of the same robot in the same posture with its base held."""
+    return ...
+
+
+tw.exercises.check("49.8.2", held_mass_matrix)
 # %%
 columns = tw.rnea(model, q, rest, np.eye(model.nv)) - tw.gravity(model, q)  # row k: the experiment with joint k
 M = tw.crba(model, q)
@@ -48,16 +63,14 @@ assert np.array_equal(M, M.T)
 #
 # $$T = \tfrac12 \sum_i V_i^T I_i V_i = \tfrac12\, \dot q^T M \dot q, \qquad
 # M_{jk} = \sum_{i\ \text{outboard of}\ j\ \text{and}\ k} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
-#
-# Only bodies that are moved by *both* joints count.
 # %% [markdown] lang="zh"
 # 实验结果是对称的:膝对髋的作用等于髋对膝的作用。原因在于 $M$ 正是动能的系数矩阵。每个刚体的 twist 是
 # $V_i = \sum_j {}^i\!X_j S_j \dot q_j$,对它与世界之间的所有关节 $j$ 求和,于是
 #
 # $$T = \tfrac12 \sum_i V_i^T I_i V_i = \tfrac12\, \dot q^T M \dot q, \qquad
 # M_{jk} = \sum_{i\ \text{在}\ j\ \text{与}\ k\text{外侧}} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
-#
-# 求和只包括*同时*位于 $j$ 和 $k$ 外侧(远离基座)的刚体,也就是被这两个关节都带动的刚体。
+# %%
+tw.ask("49.8-both", ...)
 # %%
 v = rng.standard_normal(model.nv)
 twists = tw.forward_kinematics(model, q, v).twist
@@ -65,6 +78,8 @@ energies = [inertia.kinetic_energy(V) for inertia, V in zip(model.inertia, twist
 print(f"kinetic energy {sum(energies):.6f} J, body by body; {v @ M @ v / 2:.6f} J with M")
 assert np.isclose(v @ M @ v / 2, sum(energies), rtol=1e-12)
 assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
+
+
 # %% [markdown] lang="en"
 # ## Composite inertia
 #
@@ -74,9 +89,22 @@ assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
 # %% [markdown] lang="zh"
 # ## 复合刚体惯量
 #
-# 设关节 $j$ 在 $k$ 的上游。那么位于两者外侧的刚体就是 $k$ 外侧的那些;其余关节锁死时,它们像一个刚体一样运动。
+# 设关节 $j$ 在 $k$ 的内侧(靠近基座)。那么位于两者外侧的刚体就是 $k$ 外侧的那些;其余关节锁死时,它们像一个刚体一样运动。
 # 这个刚体的惯量 $I^C_k$ 叫**复合刚体惯量**,是各个刚体的惯量换到坐标系 $k$ 后的和:从末端向内,每个刚体把自己的加到
 # 带动它的那个刚体上。
+# %% [markdown] lang="en"
+# **Exercise 49.8.1.** The base carries everything. What is then the upper left 6 × 6 block of $M$? The chapter calls it the inertia of the base,
+# and not diagonal because of the centre of mass. Build it from the inertias of the bodies, and see whether you agree.
+# %% [markdown] lang="zh"
+# **练习 49.8.1。** 基座承载着一切。那么 $M$ 左上角的 6 × 6 块是什么?本章说它是基座的惯量,因质心位置而不是对角阵。由各刚体的惯量构造它,
+# 看看你是否同意。
+# %%
+def base_block(model, q):
+    """Return the base's block of M(q), without M: the inertia of all bodies, moved into the base's frame."""
+    return ...
+
+
+tw.exercises.check("49.8.1", base_block)
 # %%
 placement = tw.forward_kinematics(model, q).placement
 link = [None, None, *(placement[model.parent[i]].inverse() @ placement[i] for i in range(2, model.nbodies))]
@@ -88,11 +116,13 @@ assert np.allclose(terms.IC[thigh], both.matrix(), rtol=1e-12, atol=1e-12)  # th
 
 masses = [float(IC[3, 3]) for IC in terms.IC]
 assert np.isclose(masses[1], model.mass)  # the base carries everything
-com = tw.unskew(terms.IC[1][:3, 3:]) / masses[1]
-assert np.allclose(com, placement[1].inverse().act(tw.center_of_mass(model, q)), rtol=1e-12, atol=1e-12)
 
 plot.flow(model, ["", *(f"{mass:.2f} kg" for mass in masses[1:])], inward=True, amounts=masses)
 plt.show()
+# %% after="49.8.1"
+com = tw.unskew(terms.IC[1][:3, 3:]) / masses[1]
+assert np.allclose(M[:6, :6], terms.IC[1], rtol=1e-12, atol=1e-12)
+assert np.allclose(com, placement[1].inverse().act(tw.center_of_mass(model, q)), rtol=1e-12, atol=1e-12)
 # %% [markdown] lang="en"
 # ## Entry by entry
 #
@@ -118,16 +148,8 @@ for j in model.support(calf):  # from the calf to the base
 F_thigh = link[calf].force_transform() @ terms.F[calf, calf]
 assert np.allclose(terms.F[thigh, calf], F_thigh, rtol=1e-12, atol=1e-12)  # T_λj leads inward, and so does its X*
 print(inspect.getsource(composite_rigid_body))
-# %% [markdown] lang="en"
-# Before you read on: the M of a Go2 has 18 × 18 = 324 entries. How many of them are zero, whatever the posture?
-# %% [markdown] lang="zh"
-# 先想一想:Go2 的 M 有 18 × 18 = 324 个元素。其中多少个在任何位形下都是零?
 # %%
-guess = "…"  # your number
-# %%
-shapes = [tw.crba(model, model.random_configuration(rng=np.random.default_rng(k))) for k in range(3)]
-answer = (np.abs(shapes) < 1e-12).all(axis=0).sum()
-print(f"you: {guess}, computed: {answer:.4g} entries")
+tw.ask("49.8-zeros", ...)
 # %% [markdown] lang="en"
 # The last six numbers are a wrench on the base, moment first. The way to the base never visits another leg, so those
 # entries are zero. Above is the whole algorithm, as it stands in the package: inward, with a climb to the base for each
@@ -158,50 +180,40 @@ assert zero[~branch].all()
 assert (~branch).sum() == 108  # a third of the 324 entries: legs are not coupled
 # %% [markdown] lang="en"
 # The blank blocks come from the tree: no body is outboard of both a front and a rear leg's joint. The dots are zeros that the
-# tree does not explain. The chapter's picture has the base's rows full; sixteen of their entries are zero:
-#
+# tree does not explain. The chapter's picture has the base's rows full; sixteen of their entries are zero.
+# %% [markdown] lang="zh"
+# 空白的大块来自树结构:没有哪个刚体同时在前腿和后腿的关节外侧。带点的零则是树结构解释不了的。
+# 本章的示意图里基座行是满的,其实其中有十六个元素为零。
+# %% [markdown] lang="en" after="49.8.1"
 # - The base's block is the composite inertia of the whole robot,
 #   $\begin{pmatrix} \bar I & m[c]_\times \\ -m[c]_\times & m 1 \end{pmatrix}$: off its diagonal $m1$ has six zeros, and
 #   the two $[c]_\times$ have three each on theirs.
 # - To turn a leg about the hip's x axis takes no force along x: four more, one for each leg.
-# %% [markdown] lang="zh"
-# 空白的大块来自树结构:没有哪个刚体同时在前腿和后腿的关节外侧。带点的零则是树结构解释不了的。
-# 本章的示意图里基座行是满的,其实其中有十六个元素为零:
-#
+# %% [markdown] lang="zh" after="49.8.1"
 # - 基座块就是整个机器人的复合刚体惯量
 #   $\begin{pmatrix} \bar I & m[c]_\times \\ -m[c]_\times & m 1 \end{pmatrix}$:其中 $m1$ 的非对角元素有六个零,
 #   两个 $[c]_\times$ 的对角线上各有三个。
 # - 让腿绕髋的 x 轴转,不需要沿 x 方向的力:又是四个零,每条腿一个。
 # %%
-assert np.allclose(M[:6, :6], terms.IC[1], rtol=1e-12, atol=1e-12)
 assert zero[:6, :6].sum() == 12
 hips = [model.v_slice[model.joint_id(f"{leg}_hip_joint")].start for leg in ("FL", "FR", "RL", "RR")]
 assert np.argwhere(zero[:6, 6:]).tolist() == [[3, hip - 6] for hip in hips]  # row 3 is the force along x
 assert (zero & branch).sum() == 12 + 2 * 4  # the same four again in the columns
-
-
-# %% [markdown] lang="en"
-# **Your turn**, exercise 49.8.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
-# %% [markdown] lang="zh"
-# **轮到你了**,练习 49.8.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
-# %%
-def held_mass_matrix(M):
-    """Return the mass matrix of the same robot in the same posture with its base held."""
-    return ...
-
-
-tw.exercises.check("49.8.2", held_mass_matrix)
 # %% [markdown] lang="en"
 # ## Keeping the zeros
 #
-# To solve $M\ddot q = \tau - h$ one factors $M$ into triangles. Beginning with the base, as the textbook does, couples
-# all legs: the zeros fill up. Beginning with the tips loses none of them. It is the same lesson as in ABA: work from the
-# tips inward.
+# To solve $M\ddot q = \tau - h$ one factors $M$ into triangles. Where to begin?
 # %% [markdown] lang="zh"
 # ## 保留这些零
 #
-# 求解 $M\ddot q = \tau - h$ 时,要把 $M$ 分解成三角矩阵。照教科书的顺序从基座开始消元,所有的腿就耦合在一起,
+# 求解 $M\ddot q = \tau - h$ 时,要把 $M$ 分解成三角矩阵。从哪里开始?
+# %%
+tw.ask("49.8-fill", ...)
+# %% [markdown] lang="en"
+# Beginning with the base, as the textbook does, couples all legs: the zeros fill up. Beginning with the tips loses none of
+# them. It is the same lesson as in ABA: work from the tips inward.
+# %% [markdown] lang="zh"
+# 照教科书的顺序从基座开始消元,所有的腿就耦合在一起,
 # 零被填满;从末端开始消元,一个零也不会丢。这和 ABA 是同一个道理:从末端向内做。
 # %%
 base_first = np.linalg.cholesky(M)  # M = L Lᵀ
@@ -220,13 +232,17 @@ assert np.abs(tips_first[other_legs]).max() < 1e-12
 # ## Positive definite, and when not
 #
 # $\dot q^T M \dot q = 2T$ is positive for every motion, as long as no motion leaves everything that has mass at rest.
-# So the eigenvalues of $M$ are positive and its rank is full. A last link without mass breaks this: its joint can turn
-# without any energy. Then forward dynamics has no answer, and `aba` raises an error.
+# So the eigenvalues of $M$ are positive and its rank is full.
 # %% [markdown] lang="zh"
 # ## 正定,以及什么时候不正定
 #
-# 只要没有哪种运动能让所有带质量的东西都静止,$\dot q^T M \dot q = 2T$ 对任何运动都为正。所以 $M$ 的特征值都为正,
-# 满秩。末端连杆没有质量就会破坏这一点:它的关节转动不需要能量。这时正向动力学没有答案,`aba` 会报错。
+# 只要没有哪种运动能让所有带质量的东西都静止,$\dot q^T M \dot q = 2T$ 对任何运动都为正。所以 $M$ 的特征值都为正,满秩。
+# %%
+tw.ask("49.8-bare", ...)
+# %% [markdown] lang="en"
+# A last link without mass can turn without any energy. Then forward dynamics has no answer, and `aba` raises an error.
+# %% [markdown] lang="zh"
+# 末端连杆没有质量时,它的关节转动不需要能量。这时正向动力学没有答案,`aba` 会报错。
 # %%
 eigenvalues = np.linalg.eigvalsh(many)
 print(f"eigenvalues in 50 postures: {eigenvalues.min():.2g} to {eigenvalues.max():.3g}")
@@ -248,14 +264,19 @@ else:
 # %% [markdown] lang="en"
 # ## What it costs
 #
-# Each joint climbs to the base, so the cost is $O(N \cdot \mathrm{depth})$. The table in 49.1 calls CRBA linear, 49.8
-# says $O(N^2)$; both are right for some robot. Instead of measuring times, we count how many lines that set a term are
-# executed. Three kinds of tree: a chain, legs of three links, and a bush, where the base carries every link.
+# The table in 49.1 calls CRBA linear, 49.8 says $O(N^2)$.
 # %% [markdown] lang="zh"
 # ## 计算代价
 #
-# 每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$。49.1 的表格说 CRBA 是线性的,49.8 说是 $O(N^2)$:
-# 对某种机器人来说都对。这里不计时,而是统计一共执行了多少行赋值。三种树:链、每条腿三个连杆的多腿机器人,
+# 49.1 的表格说 CRBA 是线性的,49.8 说是 $O(N^2)$。
+# %%
+tw.ask("49.8-chain", ...)
+# %% [markdown] lang="en"
+# Each joint climbs to the base, so the cost is $O(N \cdot \mathrm{depth})$. Both are right
+# for some robot. Instead of measuring times, we count how many lines that set a term are
+# executed. Three kinds of tree: a chain, legs of three links, and a bush, where the base carries every link.
+# %% [markdown] lang="zh"
+# 每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$:对某种机器人来说,两种说法都对。这里不计时,而是统计一共执行了多少行赋值。三种树:链、每条腿三个连杆的多腿机器人,
 # 以及所有连杆都直接挂在基座上的灌木。
 # %%
 carriers = {
@@ -317,13 +338,13 @@ for name, family in trees.items():
 # ## Pinocchio
 #
 # The same matrix, with the base's rows and columns in the order (linear, angular). The chapter says that `pin.crba` fills
-# the upper triangle only and symmetrises by $M + M^T - \mathrm{diag}(M)$. In Python the matrix is already symmetric, and
-# this recipe doubles every entry off the diagonal:
+# the upper triangle only.
 # %% [markdown] lang="zh"
 # ## 与 Pinocchio 对照
 #
-# 同一个矩阵,只是基座的行和列按(线,角)排列。本章说 `pin.crba` 只填上三角,要用 $M + M^T - \mathrm{diag}(M)$ 对称化。
-# 但在 Python 里矩阵已经是对称的,这样做会把所有非对角元素加倍:
+# 同一个矩阵,只是基座的行和列按(线,角)排列。本章说 `pin.crba` 只填上三角。
+# %%
+tw.ask("49.8-recipe", ...)
 # %%
 try:
     import pinocchio as pin
