@@ -208,10 +208,10 @@ ax = plot.foot_forces(model, q, held.forces)
 ax.legend(loc="upper left")
 plt.show()
 print("torques, hip thigh calf, of FL FR RL RR [N m]:", *tau.round(2).reshape(4, 3), sep="\n")
-# %% [markdown] lang="en"
+# %% [markdown] lang="en" after="49.11.3"
 # The dotted line drops from the centre of mass to the floor, inside the polygon between the feet. It lies 1.7 mm behind
 # the middle, so the rear feet carry a little more. So "about $mg/4$ each" is only approximately true.
-# %% [markdown] lang="zh"
+# %% [markdown] lang="zh" after="49.11.3"
 # 虚线从质心垂到地面,落在四脚围成的支撑多边形里。它在中心之后 1.7 mm,所以后脚承担得略多。所以"每只脚约 $mg/4$"只是近似成立。
 # %% [markdown] lang="en" after="49.11.3"
 # The chapter leaves $S^T\tau$ out and fits all eighteen rows by least squares. Foot forces alone cannot hold twelve joints

@@ -13,13 +13,16 @@
 #
 # Pinocchio 用 `pip install pin` 安装。PyPI 上名叫 `pinocchio` 的是另一个软件包。
 # %%
+import twistwrench as tw
+
+model = tw.load("go2")
+# %% setup="yes"
 import timeit
 
 import matplotlib.pyplot as plt
 import numpy as np
 from IPython.display import Markdown, display
 
-import twistwrench as tw
 from twistwrench import plot
 from twistwrench.cli import main
 
@@ -29,7 +32,6 @@ except ImportError:
     pin = None
     print("Pinocchio is not installed (pip install pin): the comparisons below are skipped")
 
-model = tw.load("go2")
 rng = np.random.default_rng(11)
 q = model.random_configuration(rng=rng)  # pin.randomConfiguration would draw an infinite position for the base
 v, a, tau = rng.standard_normal((3, model.nv))
@@ -46,7 +48,7 @@ i, foot = model.joint_id("FR_thigh_joint"), "FR_foot"
 #
 # 每个量一行:公式、本包的写法、Pinocchio 的写法,以及 `tw.bridge` 里把结果换过来的函数。最后一列是在一个随机状态下二者的最大差别。
 # Pinocchio 一栏中 `P` 是它的模型,`pv`、`pa`、`ptau` 是按它的顺序排列的向量。
-# %%
+# %% setup="yes"
 MAP = [  # formula, here, there, bridge: from_pinocchio_…
     ("τ = M v̇ + h", "tw.rnea(model, q, v, a)", "pin.rnea(P, data, q, pv, pa)", "tangent"),
     ("v̇ = M⁻¹ (τ − h)", "tw.aba(model, q, v, tau)", "pin.aba(P, data, q, pv, ptau)", "tangent"),
@@ -102,26 +104,36 @@ for formula, here, there, bridge in MAP:
     table.append(f"| {formula} | `{here}` | `{there}` | {bridge or 'as it is'} | {shown} |")
 display(Markdown("\n".join(table)))
 # %% [markdown] lang="en"
-# Before you read on: in our `v` the base's $\omega_z$ is entry 2. At which index does it stand in Pinocchio's
-# `v`?
-# %% [markdown] lang="zh"
-# 先想一想:在我们的 `v` 里,基座的 $\omega_z$ 是第 2 个元素(从 0 数)。它在 Pinocchio 的 `v` 里是第几个?
-# %%
-guess = "…"  # your number
-# %%
-answer = np.flatnonzero(tw.bridge.to_pinocchio_tangent(model, np.eye(model.nv)[2]))[0]
-print(f"you: {guess}, computed: {answer}")
-# %% [markdown] lang="en"
 # ## The bridge
 #
 # `q` is the same on both sides. In everything that belongs to `v`, the six entries of the base change places; in twists
-# and wrenches, the two halves. The bridge is the only place that does this. If you forget it, no error is raised: the
-# shapes fit, but the numbers are wrong.
+# and wrenches, the two halves. The bridge is the only place that does this. What if you forget it?
 # %% [markdown] lang="zh"
 # ## 换序的桥
 #
 # `q` 两边相同。凡是与 `v` 对应的量,基座的六个元素要换位置;twist 和 wrench 则是前后两半互换。只有 `tw.bridge` 做这件事。
-# 如果忘了换序,也不会报错:形状都对,但数值是错的。
+# 如果忘了换序呢?
+# %%
+tw.ask("49.11-order", ...)
+# %%
+tw.ask("49.11-eigenvalues", ...)
+# %%
+tw.ask("49.11-quaternion", ...)
+# %%
+tw.ask("49.11-risen", ...)
+
+
+# %% [markdown] lang="en"
+# **Exercise 49.11.4.** Call Pinocchio yourself, and return its $A_G$ in the chapter's order. (This one needs Pinocchio.)
+# %% [markdown] lang="zh"
+# **练习 49.11.4。** 自己调用 Pinocchio,并按本章的顺序返回 $A_G$。(这道题需要安装 Pinocchio。)
+# %%
+def map_from_pinocchio(model, q):
+    """Return the centroidal map of a robot, computed by Pinocchio, in the chapter's order."""
+    return ...
+
+
+tw.exercises.check("49.11.4", map_from_pinocchio)
 # %%
 numbered = tw.bridge.to_pinocchio_tangent(model, np.arange(18))
 print("where Pinocchio's entries of v stand in ours:", numbered.astype(int))
@@ -147,20 +159,6 @@ if pin:
     assert np.abs(forgotten - right).max() > 1
     back = tw.bridge.from_pinocchio_model(P)
     assert np.array_equal(tw.crba(back, q), M)
-
-
-# %% [markdown] lang="en"
-# **Your turn**, exercise 49.11.1: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
-# %% [markdown] lang="zh"
-# **轮到你了**,练习 49.11.1:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
-# %%
-def com_velocity(h_G, m):
-    """Return the velocity of the centre of mass from Pinocchio's centroidal momentum (test 6)."""
-    return ...
-
-
-tw.exercises.check("49.11.1", com_velocity)
 
 
 # %% [markdown] lang="en"
@@ -228,7 +226,25 @@ assert np.linalg.matrix_rank(d.J_c) == 12
 
 
 # %% [markdown] lang="en"
-# The listing itself runs on Pinocchio, whose order is $(\boldsymbol v, \boldsymbol\omega)$. As printed, it first draws a `q`
+# The listing itself runs on Pinocchio. The chapter expects seven errors of the order of 1e-10. Run it. Do you agree?
+# %% [markdown] lang="zh"
+# 书上的代码运行在 Pinocchio 上。本章预期七个误差都在 1e-10 量级。运行一下,你同意吗?
+# %% [markdown] lang="en"
+# **Exercise 49.11.1.** Which of the tests pass, and what must be changed in the others? Here is test 6; the rest is in your folder. What is folded
+# below is the answer.
+# %% [markdown] lang="zh"
+# **练习 49.11.1。** 哪几项通过,其余的要改什么?这里是测试 6,其余的在你的文件夹里。下面折叠的就是答案。
+# %%
+def com_velocity(h_G, m):
+    """Return the velocity of the centre of mass from Pinocchio's centroidal momentum (test 6)."""
+    return ...
+
+
+tw.exercises.check("49.11.1", com_velocity)
+
+
+# %% [markdown] lang="en" after="49.11.1"
+# Pinocchio's order is $(\boldsymbol v, \boldsymbol\omega)$. As printed, the listing first draws a `q`
 # with an infinite position, and nearly everything is nan. With a finite `q`, one test of seven is right. What is to be
 # changed:
 #
@@ -239,8 +255,8 @@ assert np.linalg.matrix_rank(d.J_c) == 12
 # | 4 | $[p]_\times R$ bottom left | top right |
 # | 6 | `h_G[3:]` | `h_G[:3]` |
 # | 7 | `J_full[3:, :]` | `J_full[:3, :]` |
-# %% [markdown] lang="zh"
-# 书上的代码运行在 Pinocchio 上,而它的顺序是 $(\boldsymbol v, \boldsymbol\omega)$。照原样运行,首先抽到的 `q` 位置是无穷大,几乎全部结果都是 nan。
+# %% [markdown] lang="zh" after="49.11.1"
+# Pinocchio 的顺序是 $(\boldsymbol v, \boldsymbol\omega)$。照原样运行,首先抽到的 `q` 位置是无穷大,几乎全部结果都是 nan。
 # 换成有限的 `q`,七个测试里对一个。要改的地方:
 #
 # | 测试 | 原文 | 正确 |
@@ -250,7 +266,7 @@ assert np.linalg.matrix_rank(d.J_c) == 12
 # | 4 | $[p]_\times R$ 在左下 | 在右上 |
 # | 6 | `h_G[3:]` | `h_G[:3]` |
 # | 7 | `J_full[3:, :]` | `J_full[:3, :]` |
-# %%
+# %% after="49.11.1"
 def linear_first(angular, corners, linear):
     """Return the same matrix with the linear block first."""
     return from_blocks(linear, corners[::-1], angular)
@@ -293,17 +309,36 @@ if pin:
     ax.set_title(f"on Pinocchio; test 7: rank {rank_printed} as printed, {rank} set right")
     ax.legend(fontsize=8, ncols=3, loc="upper center")
     plt.show()
+
+
 # %% [markdown] lang="en"
 # ## What a controller asks for
 #
-# `tw.dynamics` is the chapter's `getDynamics`: $M$, $h$, $J_c$, $A_G$ at one state, or only what `want=` names. Here is one
-# step of a controller. The robot stands on four feet that stay where they are, its trunk is moving, and it is asked to
-# brake and to rise with 1 m/s². Three steps: the joints' accelerations from $J_c\ddot q + \dot J_c\dot q = 0$; the feet's
-# forces from the base's rows; the torques from the joints' rows.
+# `tw.dynamics` is the chapter's `getDynamics`: $M$, $h$, $J_c$, $A_G$ at one state, or only what `want=` names.
 # %% [markdown] lang="zh"
 # ## 控制器要什么
 #
 # `tw.dynamics` 就是本章的 `getDynamics`:给出某个状态下的 $M$、$h$、$J_c$、$A_G$,或者只给 `want=` 里点名的几个。
+# %% [markdown] lang="en"
+# **Exercise 49.11.3.** All four at rest: how much does a front foot of the standing Go2 carry, and how much a rear foot? (Notebook 49.9 has the
+# first half of this exercise.)
+# %% [markdown] lang="zh"
+# **练习 49.11.3。** 四个量,静止时:站立的 Go2 一只前脚承担多少,一只后脚承担多少?(这道题的前一半在笔记本 49.9 里。)
+# %%
+def standing_loads():
+    """Return the vertical forces on a front foot and on a rear foot of Go2 in `model.standing()`: two numbers, N."""
+    return ...
+
+
+tw.exercises.check("49.11.3", standing_loads)
+# %%
+tw.ask("49.11-rise", ...)
+# %% [markdown] lang="en"
+# Here is one
+# step of a controller. The robot stands on four feet that stay where they are, its trunk is moving, and it is asked to
+# brake and to rise with 1 m/s². Three steps: the joints' accelerations from $J_c\ddot q + \dot J_c\dot q = 0$; the feet's
+# forces from the base's rows; the torques from the joints' rows.
+# %% [markdown] lang="zh"
 # 下面是控制器的一步。机器人四脚着地、脚不动,躯干在运动;要求它减速,并以 1 m/s² 的加速度抬起身体。分三步:
 # 由 $J_c\ddot q + \dot J_c\dot q = 0$ 求关节加速度,由基座行求足端力,由关节行求力矩。
 # %%
@@ -363,9 +398,6 @@ assert many.M.shape == (50, 18, 18)
 # | `project.2` | RNEA, ABA, CRBA; the equation of a floating base | `tw.rnea`, `tw.aba`, `tw.crba`, `tw.contact_jacobian`; 49.6–49.9 |
 # | `project.3` | $A_G$, $h_G$, its rate; `getDynamics` | `tw.centroidal_map`, `tw.centroidal_momentum_rate`, `tw.dynamics`; 49.10 |
 # | `project.4` | it holds together: equilibrium, ABA against RNEA, time | `tw.static_equilibrium`, `twistwrench validate` |
-#
-# For stage 4 mind two lines of the chapter: equilibrium is $g = S^T\tau + J_c^T\lambda$ (49.9), and each foot of a standing
-# Go2 carries $mg/4$ only to 1 %.
 # %% [markdown] lang="zh"
 # ## 累积项目
 #
@@ -377,9 +409,7 @@ assert many.M.shape == (50, 18, 18)
 # | `project.2` | RNEA、ABA、CRBA,浮动基座方程 | `tw.rnea`、`tw.aba`、`tw.crba`、`tw.contact_jacobian`；49.6–49.9 |
 # | `project.3` | $A_G$、$h_G$ 及其变化率,`getDynamics` | `tw.centroidal_map`、`tw.centroidal_momentum_rate`、`tw.dynamics`；49.10 |
 # | `project.4` | 集成验证:静力平衡,ABA 与 RNEA 互逆,耗时 | `tw.static_equilibrium`、`twistwrench validate` |
-#
-# 做第四阶段时注意本章的两处:静力平衡是 $g = S^T\tau + J_c^T\lambda$(49.9);站立的 Go2 每只脚承担 $mg/4$,只准到 1 %。
-# %%
+# %% after="49.11.3"
 there_and_back = tw.rnea(model, q, v, tw.aba(model, q, v, tau))
 assert np.abs(there_and_back - tau).max() < 1e-12 * np.abs(tw.nonlinear_effects(model, q, v)).max()
 share = tw.static_equilibrium(model, stand).forces[:, 2] / (model.mass * 9.81 / 4)
@@ -395,6 +425,8 @@ assert 0.005 < np.abs(share - 1).max() < 0.01
 #
 # 在终端里就是 `twistwrench validate go2`:在随机状态下,把本章的每个量与 Pinocchio 比较,再与一个完全不用 6D 向量、有 50 位有效数字的计算比较。
 # %%
+tw.ask("49.11-digits", ...)
+# %%
 status = main(["validate", "go2", "--states", "4", "--truths", "1"])
 assert status == 0
 
@@ -404,12 +436,27 @@ assert status == 0
 #
 # Times of microseconds depend on the machine and on whatever else runs on it, so we measure ratios: all candidates in turn,
 # many rounds, the best of each. Pinocchio is compiled C++; this package is NumPy, written to be read. A batch makes up for
-# part of it, since 1000 states cost hardly more calls than one.
+# part of it, since 1000 states cost hardly more calls than one. From two robots the chapter concludes that the growth is
+# linear. Do you agree?
 # %% [markdown] lang="zh"
 # ## 有多快
 #
 # 微秒级的耗时取决于机器,也取决于机器上还在跑什么,所以我们量的是比值:各个候选轮流跑很多轮,各取最好的一次。
 # Pinocchio 是编译好的 C++;本包是 NumPy,写来给人读的。批量计算能追回一部分:1000 个状态和一个状态相比,调用次数多不了多少。
+# 本章由两台机器人得出耗时线性增长的结论。你同意吗?
+# %% [markdown] lang="en"
+# **Exercise 49.11.2.** Fit the exponent to times of a whole family of robots. Which ones, and what is to be counted first, you find in your folder.
+# %% [markdown] lang="zh"
+# **练习 49.11.2。** 对一整族机器人的耗时拟合指数。取哪些机器人,先要数什么,见你的文件夹。
+# %%
+def growth(sizes, seconds):
+    """Return the exponent k with which a time grows, t = c Nᵏ, by least squares on logarithmic axes."""
+    return ...
+
+
+tw.exercises.check("49.11.2", growth)
+
+
 # %%
 def fastest(candidates, rounds=15):
     """Run all in turn, many times, and return the shortest time of each: seconds per call."""
@@ -461,27 +508,27 @@ if pin:
     assert 10 < ratio["rnea"] < 1e5
 # %% [markdown] lang="en"
 # The chapter's table has CRBA slower than RNEA and ABA at 1.7 times RNEA. Compare your own line above; where this was
-# written, CRBA took 0.77 of the time of RNEA: it needs no velocities, and Go2's legs are short. A law such as $O(N)$ does
-# not show in two robots; exercise 49.11.2 sweeps $N$.
+# written, CRBA took 0.77 of the time of RNEA: it needs no velocities, and Go2's legs are short.
 #
 # ## Exercises
 #
 # - **49.11.1** the seven tests, set right
 # - **49.11.2** how RNEA's time grows with $N$
 # - **49.11.3** all quantities of a standing Go2, and the forces at its feet
+# - **49.11.4** Pinocchio's results in the chapter's order
 #
 # `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.11.1`;
 # and `twistwrench exercises status my_answers` shows what is left, project included. That was the last notebook.
 # %% [markdown] lang="zh"
 # 本章的表格里 CRBA 比 RNEA 慢,ABA 是 RNEA 的 1.7 倍。请和上面你自己的数字比一比;写作本文的机器上,
-# CRBA 只用了 RNEA 的 0.77 倍时间:它不需要速度,而 Go2 的腿又短。像 $O(N)$ 这样的规律,两个机器人是看不出来的;
-# 练习 49.11.2 会让 $N$ 扫过一个范围。
+# CRBA 只用了 RNEA 的 0.77 倍时间:它不需要速度,而 Go2 的腿又短。
 #
 # ## 练习
 #
 # - **49.11.1** 七个测试,改到全对
 # - **49.11.2** RNEA 的耗时怎样随 $N$ 增长
 # - **49.11.3** 站立的 Go2 的所有量,以及它的足端力
+# - **49.11.4** 把 Pinocchio 的结果换成本章的顺序
 #
 # `twistwrench exercises start my_answers --language zh`，然后在那个文件夹里运行 `python -m pytest`；`twistwrench exercises hint 49.11.1` 给提示;
 # `twistwrench exercises status my_answers` 显示还剩哪些没做,累积项目也在内。这是最后一个笔记本。

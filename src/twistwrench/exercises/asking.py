@@ -21,7 +21,7 @@ from misstep.text import Language, Text, default_language, wrapped
 
 __all__ = ["SECTIONS", "Asked", "Question", "ask", "questions"]
 
-SECTIONS = tuple(f"49.{k}" for k in range(5, 11))
+SECTIONS = tuple(f"49.{k}" for k in range(5, 12))
 QUESTIONS = f"{__package__}.questions"
 CLOSE = 0.05
 """A number that is off by no more than this part of the truth is right, unless the question says otherwise."""
