@@ -10,14 +10,16 @@
 # 49.1 的四条规则可以合成两个矩阵:$X$ 变换 twist，$X^*$ 变换 wrench。这个笔记本分六步推导 $X$,每一步都用数字核对,
 # 再看看矩阵的分块结构,并说明为什么 $X^*$ 是 $X^{-T}$ 而不是 $X^T$。
 # %%
-import matplotlib.pyplot as plt
-import numpy as np
-
 import twistwrench as tw
-from twistwrench import plot
 
 model = tw.load("go2")
 q = model.standing()
+# %% setup="yes"
+import matplotlib.pyplot as plt
+import numpy as np
+
+from twistwrench import plot
+
 hip = model.joint_id("FR_hip_joint")
 q[model.q_slice[hip].start :][:3] = -0.4, 0.9, -1.6  # the right front leg, put out to the side
 
@@ -79,6 +81,8 @@ assert np.allclose(T @ back, np.eye(4), atol=1e-15)
 W = R @ tw.skew(w) @ R.T
 assert np.allclose(carried[:3, :3], W, atol=1e-15)  # 3
 assert np.allclose(carried[:3, 3], -W @ p + R @ v, atol=1e-15)
+
+
 # %% [markdown] lang="en"
 # **4.** A rotation keeps cross products, $R(\boldsymbol a \times \boldsymbol b) = R\boldsymbol a \times R\boldsymbol b$.
 # Therefore
@@ -88,15 +92,6 @@ assert np.allclose(carried[:3, 3], -W @ p + R @ v, atol=1e-15)
 # **5.** Exchange the factors of the cross product, so that the lever arm comes first:
 #
 # $$-[R\boldsymbol\omega]_\times\,\boldsymbol p = \boldsymbol p \times R\boldsymbol\omega = [\boldsymbol p]_\times R\,\boldsymbol\omega.$$
-#
-# **6.** Read off what happens to $\boldsymbol\omega$ and to $\boldsymbol v$:
-#
-# $$\begin{pmatrix} \boldsymbol\omega_A \\ \boldsymbol v_A \end{pmatrix} =
-# \begin{pmatrix} R & 0 \\ [\boldsymbol p]_\times R & R \end{pmatrix}
-# \begin{pmatrix} \boldsymbol\omega_B \\ \boldsymbol v_B \end{pmatrix}, \qquad
-# {}^A\!X_B = \begin{pmatrix} R & 0 \\ [\boldsymbol p]_\times R & R \end{pmatrix}.$$
-#
-# The coupling term of 49.1 has become the block at the bottom left.
 # %% [markdown] lang="zh"
 # **第四步。** 旋转保持叉积,$R(\boldsymbol a \times \boldsymbol b) = R\boldsymbol a \times R\boldsymbol b$,因此
 #
@@ -105,7 +100,41 @@ assert np.allclose(carried[:3, 3], -W @ p + R @ v, atol=1e-15)
 # **第五步。** 叉积交换次序,力臂就到了前面:
 #
 # $$-[R\boldsymbol\omega]_\times\,\boldsymbol p = \boldsymbol p \times R\boldsymbol\omega = [\boldsymbol p]_\times R\,\boldsymbol\omega.$$
+# %% [markdown] lang="en"
+# **Exercise 49.3.1.** Step 6 is yours: read off what happens to $\boldsymbol\omega$ and to $\boldsymbol v$. Begin with a pure translation. (The rules
+# of 49.1 for moments and forces give $X^*$ in the same way.)
+# %% [markdown] lang="zh"
+# **练习 49.3.1。** 第六步由你来做:读出 $\boldsymbol\omega$ 与 $\boldsymbol v$ 各自的变化。先做纯平移。(49.1 中力矩与力的规则同样给出 $X^*$。)
+# %%
+def translation_transforms(p):
+    """Return X, X⁻¹ and X* of the placement (1, p)."""
+    return ...
+
+
+tw.exercises.check("49.3.1", translation_transforms)
+
+
+# %% [markdown] lang="en"
+# **Exercise 49.3.2.** Now any placement. What is folded below is step 6.
+# %% [markdown] lang="zh"
+# **练习 49.3.2。** 再做任意位姿。下面折叠的就是第六步。
+# %%
+def plucker(R, p):
+    """Return X and X* of any placement (R, p)."""
+    return ...
+
+
+tw.exercises.check("49.3.2", plucker)
+# %% [markdown] lang="en" after="49.3.2"
+# **6.** Read off what happens to $\boldsymbol\omega$ and to $\boldsymbol v$:
 #
+# $$\begin{pmatrix} \boldsymbol\omega_A \\ \boldsymbol v_A \end{pmatrix} =
+# \begin{pmatrix} R & 0 \\ [\boldsymbol p]_\times R & R \end{pmatrix}
+# \begin{pmatrix} \boldsymbol\omega_B \\ \boldsymbol v_B \end{pmatrix}, \qquad
+# {}^A\!X_B = \begin{pmatrix} R & 0 \\ [\boldsymbol p]_\times R & R \end{pmatrix}.$$
+#
+# The coupling term of 49.1 has become the block at the bottom left.
+# %% [markdown] lang="zh" after="49.3.2"
 # **第六步。** 读出 $\boldsymbol\omega$ 与 $\boldsymbol v$ 各自的变化:
 #
 # $$\begin{pmatrix} \boldsymbol\omega_A \\ \boldsymbol v_A \end{pmatrix} =
@@ -117,6 +146,7 @@ assert np.allclose(carried[:3, 3], -W @ p + R @ v, atol=1e-15)
 # %%
 assert np.allclose(W, tw.skew(R @ w), atol=1e-15)  # 4
 assert np.allclose(-W @ p, tw.skew(p) @ R @ w, atol=1e-15)  # 5
+# %% after="49.3.2"
 X = T_AB.motion_transform()
 assert np.array_equal(X, np.block([[R, np.zeros((3, 3))], [tw.skew(p) @ R, R]]))  # 6
 assert np.allclose(X @ V_B, tw.vee(carried), atol=1e-15)
@@ -164,7 +194,7 @@ assert np.isclose(tw.screw(line + np.concatenate([np.zeros(3), 0.2 * d])).pitch,
 # ## 分块结构
 #
 # 左边是从 Go2 右前小腿到基座的 $X$,右边是变换 wrench 的 $X^*$,后者是这个笔记本后半部分的主题。白色表示恰好为零。
-# 块是一样的,只是耦合块换了一个角,因为对 wrench 来说,依赖参考点的是*角*的部分。
+# 块是一样的,只是耦合块换了一个角,因为对 wrench 来说,依赖参考点的是角分量。
 # %%
 X_star = T_AB.force_transform()
 figure, axes = plt.subplots(1, 2, figsize=(10, 5), layout="constrained")
@@ -180,27 +210,32 @@ assert np.isclose(np.linalg.det(X), 1)
 
 
 # %% [markdown] lang="en"
-# **Your turn**, exercise 49.3.1: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
-# %% [markdown] lang="zh"
-# **轮到你了**,练习 49.3.1:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
-# %%
-def translation_transforms(p):
-    """Return X, X⁻¹ and X* of the placement (1, p)."""
-    return ...
-
-
-tw.exercises.check("49.3.1", translation_transforms)
-# %% [markdown] lang="en"
 # ## Chains and inverses
 #
-# Placements chain, $T_{AC} = T_{AB}T_{BC}$; conjugating twice is conjugating once with the product; so the matrices
-# chain as well, ${}^A\!X_C = {}^A\!X_B\,{}^B\!X_C$. Along Go2's leg, base ← hip ← thigh ← calf:
+# Placements chain, $T_{AC} = T_{AB}T_{BC}$. Do the matrices as well, ${}^A\!X_C = {}^A\!X_B\,{}^B\!X_C$?
 # %% [markdown] lang="zh"
 # ## 链式法则与逆
 #
-# 位姿可以连乘,$T_{AC} = T_{AB}T_{BC}$;连续两次共轭等于用乘积共轭一次;所以矩阵也可以连乘,
-# ${}^A\!X_C = {}^A\!X_B\,{}^B\!X_C$。沿着 Go2 的腿,基座 ← 髋 ← 大腿 ← 小腿:
+# 位姿可以连乘,$T_{AC} = T_{AB}T_{BC}$。矩阵也可以吗,${}^A\!X_C = {}^A\!X_B\,{}^B\!X_C$？
+# %% [markdown] lang="en"
+# **Exercise 49.3.3.** First in numbers, here; then the proof, in words and formulas, in your folder.
+# %% [markdown] lang="zh"
+# **练习 49.3.3。** 先在这里用数值检验;再用文字和公式证明,写在你的文件夹里。
+# %%
+def chain_two_ways(R_AB, p_AB, R_BC, p_BC):
+    """Return X_AC in two ways: from the placement T_AB T_BC, and as X_AB X_BC."""
+    return ...
+
+
+tw.exercises.check("49.3.3", chain_two_ways)
+# %% [markdown] lang="en" after="49.3.3"
+# Conjugating twice is conjugating once with the product; so the matrices chain as well.
+# %% [markdown] lang="zh" after="49.3.3"
+# 连续两次共轭等于用乘积共轭一次,所以矩阵也可以连乘。
+# %% [markdown] lang="en"
+# Along Go2's leg, base ← hip ← thigh ← calf:
+# %% [markdown] lang="zh"
+# 沿着 Go2 的腿,基座 ← 髋 ← 大腿 ← 小腿:
 # %%
 links = [placement[model.parent[i]].inverse() @ placement[i] for i in (hip, hip + 1, hip + 2)]
 steps = [link.motion_transform() for link in links]
@@ -211,17 +246,25 @@ names = ["base ← hip", "hip ← thigh", "thigh ← calf", "their product: base
 for ax, A, name in zip(axes, [*steps, X], names):
     plot.matrix(A, name, numbers=".2f", limit=1.0, rounding=1e-12, ax=ax)
 plt.show()
+# %%
+tw.ask("49.3-back", ...)
 # %% [markdown] lang="en"
 # The way back needs no solver. $T_{BA}$ has the rotation $R^T$ and the translation $-R^T\boldsymbol p$, and with step 4
 #
 # $${}^B\!X_A = ({}^A\!X_B)^{-1} = \begin{pmatrix} R^T & 0 \\ -R^T[\boldsymbol p]_\times & R^T \end{pmatrix}.$$
 #
-# A general inverse is also less exact, since the condition number of $X$ grows with the square of the distance:
+# And how exact is a general inverse?
 # %% [markdown] lang="zh"
 # 往回变换不需要解方程。$T_{BA}$ 的旋转是 $R^T$,平移是 $-R^T\boldsymbol p$,再用第四步的恒等式:
 #
 # $${}^B\!X_A = ({}^A\!X_B)^{-1} = \begin{pmatrix} R^T & 0 \\ -R^T[\boldsymbol p]_\times & R^T \end{pmatrix}.$$
 #
+# 通用的矩阵求逆又有多准?
+# %%
+tw.ask("49.3-condition", ...)
+# %% [markdown] lang="en"
+# A general inverse is less exact, since the condition number of $X$ grows with the square of the distance:
+# %% [markdown] lang="zh"
 # 用通用的矩阵求逆反而更不精确,因为 $X$ 的条件数随距离的平方增长:
 # %%
 X_back = T_AB.inverse().motion_transform()
@@ -239,19 +282,17 @@ for metres in (0.3, 10, 1000):
     )
     assert errors[0] > 2 * errors[1]
 # %% [markdown] lang="en"
-# Before you read on: a force of 100 N points upwards at a point 0.4 m in front of the origin. How large is its
-# moment about the origin, in N m, and about which axis?
-# %% [markdown] lang="zh"
-# 先想一想:原点前方 0.4 m 处有一个向上的 100 N 的力。它关于原点的力矩有多大(N m),绕哪个轴?
-# %%
-guess = "…"  # your number
-# %%
-answer = (tw.force_transform(np.eye(3), [0.4, 0, 0]) @ [0, 0, 0, 0, 0, 100])[1]  # about y
-print(f"you: {guess}, computed: {answer:.4g} N m")
-# %% [markdown] lang="en"
 # ## Wrenches: the power decides
 #
-# The power $P = \boldsymbol F \cdot \boldsymbol V$ is watts, and watts do not depend on who looks:
+# The power $P = \boldsymbol F \cdot \boldsymbol V$ is watts, and watts do not depend on who looks.
+# %% [markdown] lang="zh"
+# ## Wrench:由功率决定
+#
+# 功率 $P = \boldsymbol F \cdot \boldsymbol V$ 的单位是瓦,多少瓦与谁来看无关。
+# %%
+tw.ask("49.3-transpose", ...)
+# %% [markdown] lang="en"
+# Written out:
 #
 # $$\boldsymbol F_B^T\boldsymbol V_B = \boldsymbol F_A^T\boldsymbol V_A = \boldsymbol F_A^T X\,\boldsymbol V_B
 # \quad\text{for all } \boldsymbol V_B \quad\Rightarrow\quad \boldsymbol F_B = X^T\boldsymbol F_A, \quad
@@ -264,9 +305,7 @@ print(f"you: {guess}, computed: {answer:.4g} N m")
 # "Dual means transposed", so people write $X^T$. Here are all three candidates with the force of the ground on the foot,
 # 40 N upwards; $B$ is at the foot now.
 # %% [markdown] lang="zh"
-# ## Wrench:由功率决定
-#
-# 功率 $P = \boldsymbol F \cdot \boldsymbol V$ 的单位是瓦,多少瓦与谁来看无关:
+# 写出来就是:
 #
 # $$\boldsymbol F_B^T\boldsymbol V_B = \boldsymbol F_A^T\boldsymbol V_A = \boldsymbol F_A^T X\,\boldsymbol V_B
 # \quad\text{对所有 } \boldsymbol V_B \quad\Rightarrow\quad \boldsymbol F_B = X^T\boldsymbol F_A, \quad
@@ -295,12 +334,17 @@ assert np.allclose(X.T @ by_hand, F_foot, atol=1e-13)  # and this is what Xᵀ i
 # ## The same power in every frame
 #
 # The calf moves at random, the ground pushes on its foot. We take twist and wrench into one frame after the other, down
-# the leg and out to the world, and multiply. With $X$ and $X^*$ the power is the same everywhere; with $X^T$ in the place
-# of $X^*$ it is different in every frame, and none of these numbers looks impossible.
+# the leg and out to the world, and multiply.
 # %% [markdown] lang="zh"
 # ## 在每个坐标系里功率都相同
 #
 # 小腿随机运动,地面推着它的脚。把 twist 和 wrench 依次变换到各个坐标系,从脚沿腿一直到世界,再相乘。
+# %%
+tw.ask("49.3-own", ...)
+# %% [markdown] lang="en"
+# With $X$ and $X^*$ the power is the same everywhere; with $X^T$ in the place of $X^*$ it is different in every frame, and
+# none of these numbers looks impossible.
+# %% [markdown] lang="zh"
 # 用 $X$ 与 $X^*$ 时功率处处相同;用 $X^T$ 代替 $X^*$,每个坐标系里的功率都不一样,而这些数没有一个看上去不可能。
 # %%
 rates = rng.standard_normal(model.nv)
@@ -348,11 +392,16 @@ for i, X_i in zip((hip, hip + 1, hip + 2), outward):
     twist = X_i @ twist + model.joints[i].subspace() @ rates[model.v_slice[i]]
 assert np.allclose(twist, tw.forward_kinematics(model, q, rates).twist[hip + 2], atol=1e-14)
 # %% [markdown] lang="en"
-# Forces come back inward, from $i$ to its parent. That is against the direction of $X_i$, so it takes $X_i^T$. The chapter's
-# listings write $X_i^*$ there: with an $X_i$ that leads outward this is the wrong way round. At each joint the motor
+# Forces come back inward, from $i$ to its parent. The chapter's listings write $X_i^*$ there.
+# %% [markdown] lang="zh"
+# 力则向内传回,从 $i$ 到父连杆。本章的伪代码在这里写的是 $X_i^*$。
+# %%
+tw.ask("49.3-first", ...)
+# %% [markdown] lang="en"
+# Inward is against the direction of $X_i$, so it takes $X_i^T$. As for $X_i^*$: with an $X_i$ that leads outward this is the wrong way round. At each joint the motor
 # bears the part of the wrench along its axis, $\tau_i = S_i^T \boldsymbol F_i$. The Jacobian knows the same answer:
 # %% [markdown] lang="zh"
-# 力则向内传回,从 $i$ 到父连杆,与 $X_i$ 的方向相反,所以用 $X_i^T$。本章的伪代码在这里写的是 $X_i^*$:既然 $X_i$ 是向外的,
+# 向内与 $X_i$ 的方向相反,所以用 $X_i^T$。至于 $X_i^*$:既然 $X_i$ 是向外的,
 # 这就反了。在每个关节处,电机承担 wrench 沿自己轴的分量,$\tau_i = S_i^T \boldsymbol F_i$。雅可比矩阵给出同样的答案:
 # %%
 J = tw.frame_jacobian(model, q, "FR_foot", "local")

@@ -10,21 +10,23 @@
 # Wrench 用六个数表示作用在刚体上的力,$\boldsymbol F = (\boldsymbol\tau, \boldsymbol f)$:对坐标系原点的力矩,再加上力。
 # 这个笔记本说明它与 twist 的关系,换坐标系时怎样变,里面藏着怎样的螺旋,以及地面能对脚做什么、不能做什么。
 # %%
-import matplotlib.pyplot as plt
-import numpy as np
-
 import twistwrench as tw
-from twistwrench import plot
 
 model = tw.load("go2")
 q = model.standing()
+# %% setup="yes"
+import matplotlib.pyplot as plt
+import numpy as np
+
+from twistwrench import plot
+
 q[:2] = 0.6, 0.3
 v = np.zeros(model.nv)
 v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
 # %% [markdown] lang="en"
 # ## Power: what a wrench is for
 #
-# Somebody pushes the robot's nose forward and to the left, $\boldsymbol f = (10, 15, 0)$ N at
+# The base turns left at 0.6 rad/s and walks at 0.8 m/s. Somebody pushes the robot's nose forward and to the left, $\boldsymbol f = (10, 15, 0)$ N at
 # $\boldsymbol r = (0.28, 0, 0)$ m of the base. About the base's origin that is the wrench
 # $(\boldsymbol r \times \boldsymbol f, \boldsymbol f)$. The power of the push is the force times the velocity of the
 # *nose*, $\boldsymbol f \cdot (\boldsymbol v + \boldsymbol\omega \times \boldsymbol r)$. Turn the triple product round,
@@ -39,10 +41,10 @@ v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
 # %% [markdown] lang="zh"
 # ## 功率:wrench 的用处
 #
-# 有人向左前方推机器人的鼻子:在基座坐标系的 $\boldsymbol r = (0.28, 0, 0)$ m 处,$\boldsymbol f = (10, 15, 0)$ N。
+# 基座以 0.6 rad/s 左转,以 0.8 m/s 前行。有人向左前方推机器人的前端:在基座坐标系的 $\boldsymbol r = (0.28, 0, 0)$ m 处,$\boldsymbol f = (10, 15, 0)$ N。
 # 对基座原点来说,这就是 wrench $(\boldsymbol r \times \boldsymbol f, \boldsymbol f)$。推力的功率等于力乘以
-# *鼻子*的速度,$\boldsymbol f \cdot (\boldsymbol v + \boldsymbol\omega \times \boldsymbol r)$。把混合积轮换一下,
-# 鼻子就不见了:
+# *前端*的速度,$\boldsymbol f \cdot (\boldsymbol v + \boldsymbol\omega \times \boldsymbol r)$。把混合积轮换一下,
+# 前端就不见了:
 #
 # $$P = \boldsymbol f^T \boldsymbol v + (\boldsymbol r \times \boldsymbol f)^T \boldsymbol\omega = \boldsymbol F^T
 # \boldsymbol V.$$
@@ -103,13 +105,16 @@ wrench_names = ["τx", "τy", "τz", "fx", "fy", "fz"]
 plot.matrix(X_star, "X*, for wrenches: foot to world", rows=wrench_names, columns=wrench_names, ax=axes[1])
 plt.show()
 # %% [markdown] lang="en"
-# Now the push in five frames. Each bar is the power, split into the part of the force and the part of the moment. The
-# sum is the same in all frames, up to rounding. The two parts are not: if the origin is moved aside, they grow and
-# cancel each other. The chapter calls them "translational" and "rotational" power, but they only depend on where the
-# origin is.
+# Now the push in five frames. The chapter calls its two parts "translational" and "rotational" power.
 # %% [markdown] lang="zh"
-# 现在把这一推放到五个坐标系里看。每根柱子是功率,分成力的部分和力矩的部分。总和都相同(只差舍入误差)。这两部分却不同:
-# 把原点向旁边移远,两者就越来越大,彼此抵消。本章把它们读作"平动功率"和"转动功率",其实它们只说明原点放在哪里。
+# 现在把这一推放到五个坐标系里看。本章把它的两部分读作"平动功率"和"转动功率"。
+# %%
+tw.ask("49.4-parts", ...)
+# %% [markdown] lang="en"
+# Each bar is the power, split into the part of the force and the part of the moment. The sum is the same in all frames, up
+# to rounding. The two parts are not: each depends on where you put the origin.
+# %% [markdown] lang="zh"
+# 每根柱子是功率,分成力的部分和力矩的部分。总和都相同(只差舍入误差)。这两部分却不同:各自取决于原点放在哪里。
 # %%
 frames = {  # each one placed in the world
     "base": base,
@@ -137,40 +142,60 @@ ax.axhline(0, color="k", linewidth=0.8)
 ax.set(xticks=x, xticklabels=parts, ylabel="W", title="one push, five frames")
 ax.legend(loc="center left", bbox_to_anchor=(1, 0.5))
 plt.show()
-# %% [markdown] lang="en"
-# Before you read on: a Go2 of 16.085 kg stands on four feet. How many newtons does a front foot carry? A quarter
-# of the weight?
-# %% [markdown] lang="zh"
-# 先想一想:16.085 kg 的 Go2 四脚站立。一只前脚承受多少牛顿?是重量的四分之一吗?
-# %%
-guess = "…"  # your number
-# %%
-loads = tw.static_equilibrium(model, model.standing()).forces[:, 2]
-answer = loads[model.feet.index("FR_foot")]
-print(f"you: {guess}, computed: {answer:.4g} N")
+
+
 # %% [markdown] lang="en"
 # ## What a foot gets from the ground
 #
 # Go2 stands on rubber balls. A contact that small is a **point contact**: it transmits a force, but no moment about
-# itself. In a frame at the foot the wrench is $(\boldsymbol 0, \boldsymbol f)$, three numbers in place of six. Seen from
-# the origin of the world the very same force has the moment $\boldsymbol p \times \boldsymbol f$: nothing was added, the
-# moment is now taken about another point. In one frame, wrenches add. The four feet together balance the weight, in
-# force *and* in moment:
+# itself.
 # %% [markdown] lang="zh"
 # ## 地面给脚的 wrench
 #
-# Go2 站在小橡胶球上。这么小的接触就是**点接触**:能传递力,对接触点本身没有力矩。在脚处的坐标系里,wrench 是
+# Go2 的足端是小橡胶球。这么小的接触就是**点接触**:能传递力,对接触点本身没有力矩。
+# %% [markdown] lang="en"
+# **Exercise 49.4.1.** The frame of a foot is fixed to the calf and leans with it. Write the force of the ground as a wrench in that frame.
+# %% [markdown] lang="zh"
+# **练习 49.4.1。** 脚坐标系固定在小腿上,随小腿倾斜。把地面的力写成这个坐标系里的 wrench。
+# %%
+def foot_wrench(model, q, foot):
+    """Return the wrench of the ground on one foot, in the foot's own frame."""
+    return ...
+
+
+tw.exercises.check("49.4.1", foot_wrench)
+
+
+# %% [markdown] lang="en"
+# **Exercise 49.4.2.** Now take it to the world. Nobody has added a moment; is there one? Compute it in two ways.
+# %% [markdown] lang="zh"
+# **练习 49.4.2。** 再把它变到世界坐标系。没有人施加力矩,现在有力矩吗?用两种办法计算。
+# %%
+def contact_wrench(R, p, f_c):
+    """Return the wrench of a point contact in the world frame, computed in two ways."""
+    return ...
+
+
+tw.exercises.check("49.4.2", contact_wrench)
+# %% [markdown] lang="en" after="49.4.2"
+# In a frame at the foot the wrench is $(\boldsymbol 0, \boldsymbol f)$, three numbers in place of six. Seen from
+# the origin of the world the very same force has the moment $\boldsymbol p \times \boldsymbol f$: nothing was added, the
+# moment is now taken about another point.
+# %% [markdown] lang="zh" after="49.4.2"
+# 在脚处的坐标系里,wrench 是
 # $(\boldsymbol 0, \boldsymbol f)$,六个数只剩三个。从世界原点看,同一个力却有力矩 $\boldsymbol p \times \boldsymbol f$:
-# 并没有多出什么,只是力矩换了一个参考点来取。在同一个坐标系里,wrench 可以相加。四只脚合起来与重力平衡,
+# 并没有多出什么,只是力矩换了一个参考点来取。
+# %% [markdown] lang="en"
+# In one frame, wrenches add. The four feet together balance the weight, in
+# force *and* in moment:
+# %% [markdown] lang="zh"
+# 在同一个坐标系里,wrench 可以相加。四只脚合起来与重力平衡,
 # 不光是力,*力矩*也平衡:
 # %%
 held = tw.static_equilibrium(model, q)
 at_foot = np.concatenate([np.zeros((4, 3)), held.forces], axis=-1)  # (0, f), in the axes of the world
 places = np.array([tw.frame_placement(model, q, name).translation for name in model.feet])
 in_world = np.matvec(tw.force_transform(np.eye(3), places), at_foot)
-for name, wrench in zip(model.feet, in_world):
-    print(f"{name}: moment about the world's origin {wrench[:3].round(2)} N m, force {wrench[3:].round(2) + 0.0} N")
-
 assert np.allclose(in_world[:, :3], np.cross(places, held.forces))
 weight = model.mass * model.gravity
 of_gravity = np.concatenate([np.cross(tw.center_of_mass(model, q), weight), weight])
@@ -179,7 +204,7 @@ assert np.allclose(in_world.sum(axis=0) + of_gravity, 0, atol=1e-12)
 ax = plot.robot(model, q)
 for place in places:
     ax.plot(*np.stack([np.zeros(3), place], axis=-1), ":", color=plot.COLOURS["grey"], linewidth=1)
-plot.arrows(places, held.forces, scale=0.006, label="f at each foot [39 N]", ax=ax)
+plot.arrows(places, held.forces, scale=0.006, label="f at each foot", ax=ax)
 colour = plot.COLOURS["blue"]
 names = [name[:2] for name in model.feet]
 plot.arrows(
@@ -190,10 +215,15 @@ ax.view_init(elev=35, azim=-75)
 ax.legend(loc="upper left")
 plt.show()
 # %% [markdown] lang="en"
-# The dotted lines are the levers; each moment is at right angles to its lever and to the force. (The chapter's first
-# exercise makes Go2 12 kg heavy. The description used here has 16.085 kg with its rotors: 39.45 N for each foot on average,
-# a little more behind than in front. Unitree's own has no rotors and 15.019 kg.)
-#
+# The dotted lines are the levers; each moment is at right angles to its lever and to the force.
+# %% [markdown] lang="zh"
+# 虚线是力臂;每个力矩都垂直于自己的力臂,也垂直于力。
+# %% [markdown] lang="en" after="49.4.1"
+# The chapter's first exercise makes Go2 12 kg heavy. The description used here has 16.085 kg with its rotors: 39.45 N for
+# each foot on average. Unitree's own has no rotors and 15.019 kg.
+# %% [markdown] lang="zh" after="49.4.1"
+# 本章第一道练习里的 Go2 是 12 kg。这里所用的模型带转子,是 16.085 kg,平均每只脚 39.45 N;宇树自己的模型不带转子,是 15.019 kg。
+# %% [markdown] lang="en"
 # ## From wrenches to joints
 #
 # A force at a foot moves the joints as well. The foot's Jacobian gives the velocity of the foot, $\boldsymbol v_i = J_i v$;
@@ -201,9 +231,6 @@ plt.show()
 # by $J_i^T$. For all feet that is $J_c^T \boldsymbol\lambda$. The same thing another way: hand the wrench to `rnea` as
 # `f_ext`, on the body that carries the foot and in its frame.
 # %% [markdown] lang="zh"
-# 虚线是力臂;每个力矩都垂直于自己的力臂,也垂直于力。(本章第一道练习里的 Go2 是 12 kg。这里所用的模型带转子,是
-# 16.085 kg,平均每只脚 39.45 N,后脚比前脚略多;宇树自己的模型不带转子,是 15.019 kg。)
-#
 # ## 从 wrench 到关节
 #
 # 脚上的力也会带动关节。脚的雅可比矩阵给出脚的速度,$\boldsymbol v_i = J_i v$;由功率相等,
@@ -227,16 +254,19 @@ assert np.allclose(tw.rnea(model, q, rest, rest, f_ext)[:6], 0, atol=1e-12)  # n
 #
 # As every twist is a turning about an axis and a sliding along it, every wrench is a force along an axis and a moment
 # about it. The axis runs along $\boldsymbol f$ through $\boldsymbol f \times \boldsymbol\tau / |\boldsymbol f|^2$; the
-# pitch $h = \boldsymbol f^T\boldsymbol\tau / |\boldsymbol f|^2$ is the moment for each newton. With $h = 0$ it is a pure
-# force: four standing feet act like one force through the centre of mass. A couple has $\boldsymbol f = 0$, infinite
-# pitch, and no place of its own.
+# pitch $h = \boldsymbol f^T\boldsymbol\tau / |\boldsymbol f|^2$ is the moment per newton, in metres. With $h = 0$ it is a pure
+# force. A couple has $\boldsymbol f = 0$ and infinite pitch.
 # %% [markdown] lang="zh"
 # ## Wrench 的螺旋
 #
 # 每个 twist 都是绕一条轴转动并沿它滑动;同样,每个 wrench 都是沿一条轴的力加上绕它的力矩。轴的方向是
 # $\boldsymbol f$,经过点 $\boldsymbol f \times \boldsymbol\tau / |\boldsymbol f|^2$;螺距
-# $h = \boldsymbol f^T\boldsymbol\tau / |\boldsymbol f|^2$ 是每牛顿带的力矩。$h = 0$ 时是纯力:站立的四只脚合起来,
-# 就像一个经过质心的力。力偶的 $\boldsymbol f = 0$,螺距无穷大,没有自己的位置。
+# $h = \boldsymbol f^T\boldsymbol\tau / |\boldsymbol f|^2$ 是每牛顿力所带的力矩,单位是米。$h = 0$ 时是纯力。力偶的
+# $\boldsymbol f = 0$,螺距无穷大。
+# %%
+tw.ask("49.4-four", ...)
+# %%
+tw.ask("49.4-couple", ...)
 # %%
 together = tw.Wrench(in_world.sum(axis=0), frame="world").screw()
 assert np.isclose(together.pitch, 0, atol=1e-12)
@@ -247,12 +277,17 @@ assert couple.pitch == np.inf
 for p in np.random.default_rng(0).standard_normal((9, 3)):  # the same about every point
     assert np.array_equal(tw.force_transform(np.eye(3), p) @ [0, 0, 5.0, 0, 0, 0], [0, 0, 5.0, 0, 0, 0])
 # %% [markdown] lang="en"
-# Now a moment of a trot: only two feet stand, front left and rear right, and push sideways to turn the robot. Together
-# that is a screw with a pitch. Both feet carry the same here, so its axis runs through the middle between them. The cones are what friction
+# Now a moment of a trot: only two feet stand, front left and rear right, and push sideways to turn the robot.
+# %% [markdown] lang="zh"
+# 再看小跑中的一瞬:只有左前脚和右后脚着地,它们向侧面蹬,让机器人转身。
+# %%
+tw.ask("49.4-axis", ...)
+# %% [markdown] lang="en"
+# Together that is a screw with a pitch. Both feet carry the same here, so its axis runs through the middle between them. The cones are what friction
 # allows at a point, the **friction cone** $\sqrt{f_x^2 + f_y^2} \le \mu f_z$, here with $\mu = 0.6$: a force inside does
 # not slip.
 # %% [markdown] lang="zh"
-# 再看小跑中的一瞬:只有左前脚和右后脚着地,它们向侧面蹬,让机器人转身。合起来是一个有螺距的螺旋。这里两只脚
+# 合起来是一个有螺距的螺旋。这里两只脚
 # 承担的力相同,所以轴经过两脚的正中。圆锥是摩擦在一个点上所允许的力,即**摩擦锥**
 # $\sqrt{f_x^2 + f_y^2} \le \mu f_z$,这里 $\mu = 0.6$:力在锥内,脚就不打滑。
 # %%
@@ -289,9 +324,7 @@ plt.show()
 # + (\boldsymbol q_F - \boldsymbol q_V) \cdot (\boldsymbol f \times \boldsymbol\omega).$$
 #
 # This is what power means in the language of screws: pitches, the angle between the axes, and their distance. If $P = 0$
-# the screws are **reciprocal**. A pure force and a hinge ($h_F = h_V = 0$) are reciprocal if their lines meet or are
-# parallel. You use this whenever you look at a leg: a force of the ground whose line meets the axis of a joint asks
-# nothing of that motor. Below, a force on the right front foot aims at a point of the hip's axis.
+# the screws are **reciprocal**.
 # %% [markdown] lang="zh"
 # ## 互易螺旋:不做功的力
 #
@@ -301,7 +334,14 @@ plt.show()
 # $$P = \boldsymbol F^T \boldsymbol V = (h_F + h_V)\,\boldsymbol f \cdot \boldsymbol\omega
 # + (\boldsymbol q_F - \boldsymbol q_V) \cdot (\boldsymbol f \times \boldsymbol\omega).$$
 #
-# 这才是功率的螺旋解释:两个螺距、两轴的夹角、两轴的距离。$P = 0$ 时称两个螺旋**互易**。纯力与旋转关节($h_F = h_V = 0$)互易,
+# 这才是功率的螺旋解释:两个螺距、两轴的夹角、两轴的距离。$P = 0$ 时称两个螺旋**互易**。
+# %%
+tw.ask("49.4-hip", ...)
+# %% [markdown] lang="en"
+# A pure force and a hinge ($h_F = h_V = 0$) are reciprocal if their lines meet or are parallel. You use this whenever you look at a leg: a force of the ground whose line meets the axis of a joint asks
+# nothing of that motor. Below, a force on the right front foot aims at a point of the hip's axis.
+# %% [markdown] lang="zh"
+# 纯力与旋转关节($h_F = h_V = 0$)互易,
 # 当且仅当两条直线相交或平行。观察一条腿时经常用到这一点:地面反力的作用线如果与某个关节轴相交,这个关节的电机就不必出力。
 # 下面,右前脚上的力正好指向髋关节轴上的一点。
 # %%
@@ -317,23 +357,40 @@ J = tw.contact_jacobian(model, q, ["FR_foot"])
 torques = J.T @ (axis_point - foot)  # a force along the line from the foot to the axis
 assert np.isclose(torques[model.v_slice[hip]], 0, atol=1e-15)
 assert np.abs(torques[6:]).max() > 0.01  # the other motors of the leg are not spared
+
+
 # %% [markdown] lang="en"
 # ## A sole can do more, but not everything
 #
 # A humanoid has soles: a **surface contact**, six numbers. Think of the pressure under the sole as forces at its four
 # corners. Each can only push. The forces together act at one point of the sole, about which there is no tangential
-# moment, the **centre of pressure** (COP). With $\tau_x = \sum y_i f_i$ and $\tau_y = -\sum x_i f_i$ it is
+# moment, the **centre of pressure** (COP).
+# %% [markdown] lang="zh"
+# ## 脚底能做得更多,但不是什么都行
+#
+# 人形机器人有脚底:这是**面接触**,六个数都在。把脚底的压力想成四个角上的力,每个力只能推,不能拉。这些力合起来
+# 作用在脚底的一个点上,对这个点没有切向力矩,它叫**压力中心**(COP)。
+# %% [markdown] lang="en"
+# **Exercise 49.4.3.** Where is it, given the wrench? And why can it not leave the sole? What is folded below is the answer.
+# %% [markdown] lang="zh"
+# **练习 49.4.3。** 已知 wrench,它在哪里?为什么它不会跑出脚底?下面折叠的就是答案。
+# %%
+def center_of_pressure(F):
+    """Return the centre of pressure of a sole."""
+    return ...
+
+
+tw.exercises.check("49.4.3", center_of_pressure)
+# %% [markdown] lang="en" after="49.4.3"
+# With $\tau_x = \sum y_i f_i$ and $\tau_y = -\sum x_i f_i$ it is
 #
 # $$x_{COP} = \frac{\sum x_i f_i}{\sum f_i} = -\frac{\tau_y}{f_z}, \qquad y_{COP} = \frac{\sum y_i f_i}{\sum f_i} =
 # \frac{\tau_x}{f_z},$$
 #
 # an average of the corners with weights $f_i \ge 0$. An average cannot leave the sole: that is all there is to
 # $|\tau_x| \le d_y f_z$ and $|\tau_y| \le d_x f_z$.
-# %% [markdown] lang="zh"
-# ## 脚底能做得更多,但不是什么都行
-#
-# 人形机器人有脚底:这是**面接触**,六个数都在。把脚底的压力想成四个角上的力,每个力只能推,不能拉。这些力合起来
-# 作用在脚底的一个点上,对这个点没有切向力矩,它叫**压力中心**(COP)。由 $\tau_x = \sum y_i f_i$ 和
+# %% [markdown] lang="zh" after="49.4.3"
+# 由 $\tau_x = \sum y_i f_i$ 和
 # $\tau_y = -\sum x_i f_i$ 得
 #
 # $$x_{COP} = \frac{\sum x_i f_i}{\sum f_i} = -\frac{\tau_y}{f_z}, \qquad y_{COP} = \frac{\sum y_i f_i}{\sum f_i} =
@@ -341,7 +398,7 @@ assert np.abs(torques[6:]).max() > 0.01  # the other motors of the leg are not s
 #
 # 也就是四个角以 $f_i \ge 0$ 为权的平均。平均不会跑出脚底:$|\tau_x| \le d_y f_z$ 和 $|\tau_y| \le d_x f_z$
 # 说的就是这件事。
-# %%
+# %% after="49.4.3"
 human = tw.load("humanoid")
 sole = tw.frame_placement(human, human.standing(), "left_sole")
 corner_names = [f"left_sole_{corner}" for corner in ("fl", "fr", "rr", "rl")]
@@ -395,11 +452,16 @@ plt.show()
 assert abs(plot.center_of_pressure(stands["impossible"])[0]) > d_x
 # %% [markdown] lang="en"
 # The chapter's table stops there: friction cone and COP. One moment is left without a bound, the one about the normal.
+# %% [markdown] lang="zh"
+# 本章的表格到此为止:摩擦锥加 COP。还有一个力矩没有界,就是绕法向的那个。
+# %%
+tw.ask("49.4-spin", ...)
+# %% [markdown] lang="en"
 # Friction limits it too. No corner pushes sideways with more than $\mu f_i$, and none is further than
 # $\sqrt{d_x^2 + d_y^2}$ from the middle: so $|\tau_z| \le \mu f_z \sqrt{d_x^2 + d_y^2}$. A controller that forgets this
 # asks the ground for what it does not give, and the robot spins on its sole.
 # %% [markdown] lang="zh"
-# 本章的表格到此为止:摩擦锥加 COP。还有一个力矩没有界,就是绕法向的那个。摩擦同样限制它:每个角的侧向力都不超过
+# 摩擦同样限制它:每个角的侧向力都不超过
 # $\mu f_i$,离中心都不超过 $\sqrt{d_x^2 + d_y^2}$,所以 $|\tau_z| \le \mu f_z \sqrt{d_x^2 + d_y^2}$。忘掉这一条的控制器
 # 会向地面要它给不出的力,机器人就在脚底上打转。
 # %%
@@ -412,20 +474,6 @@ assert np.hypot(*twisting[3:5]) <= mu * twisting[5]  # within the friction cone
 assert np.allclose(plot.center_of_pressure(twisting), 0)  # its COP in the middle of the sole
 print(f"friction gives {mu * twisting[5] * reach:.1f} N m at most, not {twisting[2]:.0f}")
 assert twisting[2] > 10 * mu * twisting[5] * reach
-
-
-# %% [markdown] lang="en"
-# **Your turn**, exercise 49.4.3: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
-# %% [markdown] lang="zh"
-# **轮到你了**,练习 49.4.3:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
-# %%
-def center_of_pressure(F):
-    """Return the centre of pressure of a sole."""
-    return ...
-
-
-tw.exercises.check("49.4.3", center_of_pressure)
 # %% [markdown] lang="en"
 # ## Pinocchio agrees
 #

@@ -21,7 +21,7 @@ from misstep.text import Language, Text, default_language, wrapped
 
 __all__ = ["SECTIONS", "Asked", "Question", "ask", "questions"]
 
-SECTIONS = tuple(f"49.{k}" for k in range(5, 12))
+SECTIONS = tuple(f"49.{k}" for k in range(3, 12))
 QUESTIONS = f"{__package__}.questions"
 CLOSE = 0.05
 """A number that is off by no more than this part of the truth is right, unless the question says otherwise."""
@@ -152,11 +152,16 @@ class Asked:
     def _filled(self, text: Text) -> str:
         return text.of(self.language).format(**self.facts)
 
+    @property
+    def _unit(self) -> str:
+        """The unit as it is written in the language."""
+        return self.question.unit.replace("N m", "N·m") if self.language == "zh" else self.question.unit
+
     def _shown(self, answer: Any) -> str:
         """Return an answer as it is written: a choice with its letter, a number with its unit."""
         if self.question.choices:
             return f"{self.question.letter(answer)}) {self._filled(self.question.choices[answer])}"
-        return f"{float(answer):.4g} {self.question.unit}".rstrip()
+        return f"{float(answer):.4g} {self._unit}".rstrip()
 
     def _remark(self) -> str:
         """Return what is said of a wrong guess: the sentence of a usual one, or how far off the number is."""
@@ -180,7 +185,7 @@ class Asked:
     @property
     def _how(self) -> str:
         """Return how to answer."""
-        unit = self._say("in unit", unit=self.question.unit) if self.question.unit else self._say("no unit")
+        unit = self._say("in unit", unit=self._unit) if self._unit else self._say("no unit")
         return self._say("letter" if self.question.choices else "number", id=self.question.id, unit=unit)
 
     def __repr__(self) -> str:
