@@ -10,6 +10,10 @@
 # 刚体既转动又移动。用 3D 向量来描述要两个量,而换一个参考点或坐标系时,它们遵守的规则并不一样。
 # 这个笔记本先说明这些规则,再看漏掉一条会怎样,最后看 6D 向量怎样解决这个问题。
 # %%
+import twistwrench as tw
+
+model = tw.load("go2")
+# %% setup="yes"
 import ast
 import inspect
 import timeit
@@ -17,22 +21,8 @@ import timeit
 import matplotlib.pyplot as plt
 import numpy as np
 
-import twistwrench as tw
 from twistwrench import newton_euler_3d, plot
 
-model = tw.load("go2")
-# %% [markdown] lang="en"
-# Before you read on: Go2 stands and turns on the spot, 0.5 rad/s about the vertical, its joints still. How fast
-# does a front foot move, in m/s? Write your number down first.
-# %% [markdown] lang="zh"
-# 先想一想:Go2 站立,关节不动,绕竖直轴以 0.5 rad/s 原地转动。前脚的速度是多少 m/s?请先写下你的数。
-# %%
-guess = "…"  # your number
-# %%
-turning = np.eye(model.nv)[2] * 0.5
-foot = tw.frame_jacobian(model, model.standing(), "FR_foot", reference="local_world_aligned") @ turning
-answer = np.linalg.norm(foot[3:])
-print(f"you: {guess}, computed: {answer:.4g} m/s")
 # %% [markdown] lang="en"
 # ## The velocity of a point
 #
@@ -95,7 +85,9 @@ for name, point in points.items():
 # ## 力也有同样的麻烦,只是反过来
 #
 # 力 $\boldsymbol f$ 在哪里看都一样,力矩却不一样:参考点从 $O$ 换到 $O'$,要加上
-# $\boldsymbol r_{O'O} \times \boldsymbol f$。速度里随参考点变化的是*线*的部分,这里变化的是*角*的部分。
+# $\boldsymbol r_{O'O} \times \boldsymbol f$。速度里随参考点变化的是线分量,这里变化的是角分量。
+# %%
+tw.ask("49.1-along", ...)
 # %%
 push = np.array([0, 0, 40.0])  # the ground on the right front foot, N
 moments = {name: np.cross(foot - point, push) for name, point in points.items()}
@@ -156,9 +148,11 @@ assert np.isclose(wrench_A @ twist_A, wrench_B @ twist_B)  # power: the same in 
 # 本章列出了四个常见错误。这里在 Go2 上故意各犯一次:
 #
 # 1. 忘记耦合项 $\boldsymbol p \times R\boldsymbol\omega$;
-# 2. 力的耦合项符号写反:有人用 30 N 向左推机器人的鼻子,正向动力学告诉我们躯干开始怎样转;
+# 2. 力的耦合项符号写反:有人用 30 N 向左推机器人的前端,正向动力学告诉我们躯干开始怎样转;
 # 3. 把 $(\boldsymbol\omega, \boldsymbol v)$ 读成 $(\boldsymbol v, \boldsymbol\omega)$;
 # 4. 把 body twist 当成 spatial twist。
+# %%
+tw.ask("49.1-sign", ...)
 # %%
 right = plot.point_velocity(twist_A, foot)
 assert np.allclose(right, velocities["FR_foot"])
@@ -188,10 +182,16 @@ assert pushed[2] > 10
 assert flipped[2] < -10
 # %% [markdown] lang="en"
 # The fourth is the most treacherous. Near the origin of the world both twists are almost equal, so a test in the lab
-# passes. The error grows with the distance that the robot walks. The picture shows the same foot, after the robot has
+# passes.
+# %% [markdown] lang="zh"
+# 第四个最难发现。在世界原点附近,两种 twist 几乎相等,实验室里的测试能通过。
+# %%
+tw.ask("49.1-walked", ...)
+# %% [markdown] lang="en"
+# The error grows with the distance that the robot walks. The picture shows the same foot, after the robot has
 # walked a distance $d$ without turning:
 # %% [markdown] lang="zh"
-# 第四个最难发现。在世界原点附近,两种 twist 几乎相等,实验室里的测试能通过;机器人走得越远,错得越多。
+# 机器人走得越远,错得越多。
 # 还是那只脚,机器人向前走了距离 $d$,而且朝向都没变:
 # %%
 distance = np.geomspace(0.01, 100, 41)
@@ -253,6 +253,8 @@ plt.show()
 # | 6 | 转动刚体的惯量 | $\boldsymbol\omega \times I\boldsymbol\omega$ |
 #
 # 少一项会错多少?下面以右前腿的小腿为例,运动是随机抽取的。Go2 没有移动关节,所以第三项是零。
+# %%
+tw.ask("49.1-negligible", ...)
 # %%
 rng = np.random.default_rng(1)
 v, a = 3 * rng.standard_normal((2, model.nv))
@@ -320,25 +322,53 @@ for name, way in ways.items():
 # %% [markdown] lang="en"
 # In Python, the two take similar times, because most of the time is spent in small calls of NumPy. What makes a
 # recursion fast is that its work grows with the number of links $N$ and not with $N^2$. The chapter's table says that
-# RNEA, ABA and CRBA are all linear. The mass matrix that CRBA returns shows that it cannot be: on a chain, $N^2$
-# numbers are not zero.
+# RNEA, ABA and CRBA are all linear. Can that be?
 # %% [markdown] lang="zh"
 # 在 Python 里二者相差不大,因为时间主要花在一次次小的 NumPy 调用上。递推之所以快,在于工作量随连杆数 $N$ 增长,而不是随 $N^2$ 增长。
-# 本章的表格说 RNEA、ABA、CRBA 都是线性时间;只要看看 CRBA 返回的质量矩阵,就知道它不可能是线性的:对一条链,有 $N^2$ 个非零元素。
+# 本章的表格说 RNEA、ABA、CRBA 都是线性时间。可能吗?
+# %%
+tw.ask("49.1-full", ...)
 # %%
 for n in (5, 10, 20, 40):
     links = tw.chain(n)
     assert np.count_nonzero(tw.crba(links, np.full(n, 0.3))) == n**2
+
+
 # %% [markdown] lang="en"
 # ## A base that floats
 #
-# An arm is bolted down; Go2 is not. Its base adds six degrees of freedom without motors. And since a rotation is stored
-# as a quaternion, `q` has one number more than `v`.
+# An arm is bolted down; Go2 is not. Its base adds six degrees of freedom without motors. What does that do to the two
+# equations of motion, $M\ddot q + h = \tau$ of the arm and $M\ddot q + h = S^T\tau + J_c^T\lambda$ of a robot on its feet?
 # %% [markdown] lang="zh"
 # ## 浮动的基座
 #
-# 机械臂是固定的,Go2 不是。它的基座带来六个没有电机的自由度。又因为姿态用四元数存储,`q` 比 `v` 多一个数。
+# 机械臂是固定的,Go2 不是。它的基座带来六个没有电机的自由度。这对两个运动方程意味着什么:机械臂的
+# $M\ddot q + h = \tau$,与站立机器人的 $M\ddot q + h = S^T\tau + J_c^T\lambda$？
+# %% [markdown] lang="en"
+# **Exercise 49.1.1.** How many numbers are in `q`, and how many in `v`? And with Euler angles?
+# %% [markdown] lang="zh"
+# **练习 49.1.1。** `q` 里有几个数,`v` 里有几个数?改用欧拉角呢?
 # %%
+def sizes():
+    """Return nq and nv with a quaternion, then nq and nv with Euler angles: four whole numbers."""
+    return ...
+
+
+tw.exercises.check("49.1.1", sizes)
+
+
+# %% [markdown] lang="en"
+# **Exercise 49.1.2.** Why has the arm no $J_c^T\lambda$? And what changes when its tip polishes something?
+# %% [markdown] lang="zh"
+# **练习 49.1.2。** 机械臂为什么没有 $J_c^T\lambda$?末端打磨东西时要怎样改?
+# %%
+def polishing_torques(M, h, J, a, force):
+    """Return the joint torques of a fixed-base arm with three joints whose tip touches something."""
+    return ...
+
+
+tw.exercises.check("49.1.2", polishing_torques)
+# %% after="49.1.1"
 print("                 base     nq  nv  motors")
 for robot in map(tw.load, ["planar_arm", "cart_pole", "go2", "humanoid"]):
     motors = len(tw.selection_matrix(robot))
@@ -348,13 +378,15 @@ for robot in map(tw.load, ["planar_arm", "cart_pole", "go2", "humanoid"]):
 
 S = tw.selection_matrix(model)
 assert not (S.T @ np.ones(12))[:6].any()  # the motors have no direct effect on the base
-# %% [markdown] lang="en"
-# So `q + v * dt` cannot be right: the shapes do not fit, and the sum of two quaternions is no rotation. `integrate` moves
-# on the manifold. The chapter's table writes the quaternion with $q_w$ first; Pinocchio and this package store it last.
-# Both orders have norm 1, so nothing warns you:
-# %% [markdown] lang="zh"
-# 所以 `q + v * dt` 不可能对:形状对不上,而且四元数相加不再表示旋转。`integrate` 沿流形移动。
-# 本章的表格把 $q_w$ 写在最前,而 Pinocchio 和本包都把它存在最后。两种顺序的模都是 1,所以不会有任何警告:
+# %% [markdown] lang="en" after="49.1.1"
+# Since a rotation is stored as a quaternion, `q` has one number more than `v`. So `q + v * dt` cannot be right: the shapes
+# do not fit, and the sum of two quaternions is no rotation. `integrate` moves on the manifold. The chapter's table writes the quaternion with $q_w$ first; Pinocchio and this package store it last.
+# What if you mix them up?
+# %% [markdown] lang="zh" after="49.1.1"
+# 姿态用四元数存储,`q` 就比 `v` 多一个数。所以 `q + v * dt` 不可能对:形状对不上,而且四元数相加不再表示旋转。`integrate` 沿流形移动。
+# 本章的表格把 $q_w$ 写在最前,而 Pinocchio 和本包都把它存在最后。弄混了会怎样?
+# %%
+tw.ask("49.1-rolled", ...)
 # %%
 dt = 0.01
 assert (q.shape, v.shape) == ((19,), (18,))
@@ -394,20 +426,6 @@ else:
     assert np.abs(theirs.linear - ours[3:]).max() < 1e-12 * np.abs(ours).max()
     assert np.abs(theirs.angular - ours[:3]).max() < 1e-12 * np.abs(ours).max()
     print("foot", ours[3:].round(3), "m/s, in both")
-
-
-# %% [markdown] lang="en"
-# **Your turn**, exercise 49.1.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
-# %% [markdown] lang="zh"
-# **轮到你了**,练习 49.1.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
-# %%
-def polishing_torques(M, h, J, a, force):
-    """Return the joint torques of a fixed-base arm with three joints whose tip touches something."""
-    return ...
-
-
-tw.exercises.check("49.1.2", polishing_torques)
 # %% [markdown] lang="en"
 # ## Exercises
 #

@@ -11,14 +11,16 @@
 # Twist 用六个数表示刚体的速度,$\boldsymbol V = (\boldsymbol\omega, \boldsymbol v)$:转得多快,以及刚体上此刻位于坐标系原点的
 # 那个点移动得多快。这个笔记本说明这六个数在两种坐标系里各是什么意思,怎样由它们得到运动,以及藏在里面的螺旋。
 # %%
-import matplotlib.pyplot as plt
-import numpy as np
-
 import twistwrench as tw
-from twistwrench import plot
 
 model = tw.load("go2")
 q = model.standing()
+# %% setup="yes"
+import matplotlib.pyplot as plt
+import numpy as np
+
+from twistwrench import plot
+
 q[:2] = 1.0, 0.5
 v = np.zeros(model.nv)
 v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
@@ -30,7 +32,9 @@ v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
 #
 # $$[\boldsymbol V_{body}] = T^{-1}\dot T, \qquad [\boldsymbol V_{spatial}] = \dot T\, T^{-1}.$$
 #
-# We can do exactly that. With complex numbers a derivative needs no small difference: $f(x + ih)$ has
+# Here Go2 stands at (1, 0.5) m, turns left at 0.6 rad/s and walks at 0.8 m/s, its joints locked.
+#
+# We can do exactly what the definitions say. With complex numbers a derivative needs no small difference: $f(x + ih)$ has
 # $h f'(x)$ as its imaginary part, and $h$ may be as small as $10^{-100}$.
 # %% [markdown] lang="zh"
 # ## 一个运动,两种 twist
@@ -39,7 +43,11 @@ v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
 #
 # $$[\boldsymbol V_{body}] = T^{-1}\dot T, \qquad [\boldsymbol V_{spatial}] = \dot T\, T^{-1}.$$
 #
+# 这里 Go2 在 (1, 0.5) m 处,以 0.6 rad/s 左转,以 0.8 m/s 前行,关节锁死。
+#
 # 我们就照这个定义来算。用复数求导不需要做差分:$f(x + ih)$ 的虚部是 $h f'(x)$,而 $h$ 可以小到 $10^{-100}$。
+# %%
+tw.ask("49.2-origin", ...)
 # %%
 h = 1e-100
 T = tw.frame_placement(model, q, "FR_foot").matrix()
@@ -55,8 +63,8 @@ assert np.allclose(tw.frame_jacobian(model, q, "FR_foot", "world") @ v, spatial,
 # %% [markdown] lang="en"
 # The **body twist** is what a passenger on the foot measures, in the axes of the foot: its linear part is the velocity of
 # the foot. The **spatial twist** is what is seen from the world: its linear part is the velocity of the point of the
-# foot's body that passes through the *world's origin* now. No such point exists in metal; imagine the body as large as
-# the room.
+# foot's body that passes through the *world's origin* now. Usually there is no material at that point; imagine the body
+# extended to it.
 #
 # How are the two related? From the first definition $\dot T = T\,[\boldsymbol V_{body}]$. Put this into the second:
 #
@@ -66,7 +74,7 @@ assert np.allclose(tw.frame_jacobian(model, q, "FR_foot", "world") @ v, spatial,
 # matrix it is one multiplication, $\boldsymbol V_{spatial} = X\,\boldsymbol V_{body}$; section 49.3 multiplies it out.
 # %% [markdown] lang="zh"
 # **Body twist** 是坐在脚上的乘客按脚的坐标轴量到的:线速度部分就是脚的速度。**Spatial twist** 是站在世界里看到的:
-# 线速度部分是脚这个刚体上此刻经过*世界原点*的那个点的速度。那里其实没有金属,请想象这个刚体和房间一样大。
+# 线速度部分是脚这个刚体上此刻经过*世界原点*的那个点的速度。那里通常没有材料,请想象刚体一直延伸到那里。
 #
 # 两者有什么关系?由第一个定义得 $\dot T = T\,[\boldsymbol V_{body}]$,代入第二个:
 #
@@ -80,16 +88,19 @@ assert np.allclose(R @ body[3:], T_dot[:3, 3])  # the velocity of the foot
 assert np.allclose(spatial[3:], T_dot[:3, 3] + np.cross(spatial[:3], -p))  # of the point at the world's origin
 assert np.allclose(T @ tw.hat(body) @ np.linalg.inv(T), tw.hat(spatial))
 assert np.allclose(tw.motion_transform(R, p) @ body, spatial)
+
+
 # %% [markdown] lang="en"
-# Before you read on: a base goes forward at 0.4 m/s and turns left at 0.5 rad/s. One point beside it stands still
-# at this instant. How far to the left, in m?
+# **Exercise 49.2.1.** Only the base turns, about its own z axis. Which body twist has the foot, and why does it have a linear velocity?
 # %% [markdown] lang="zh"
-# 先想一想:基座以 0.4 m/s 前进,同时以 0.5 rad/s 左转。这一瞬间旁边有一个点静止不动。它在左边多远,单位 m?
+# **练习 49.2.1。** 只有基座绕自身 z 轴转动。脚的 body twist 是什么?脚为什么有线速度?
 # %%
-guess = "…"  # your number
-# %%
-answer = tw.screw([0, 0, 0.5, 0.4, 0, 0]).point[1]
-print(f"you: {guess}, computed: {answer:.4g} m")
+def foot_twist(model, q, omega_z):
+    """Return the body twist of FR_foot while only the base turns, about its own z axis."""
+    return ...
+
+
+tw.exercises.check("49.2.1", foot_twist)
 # %% [markdown] lang="en"
 # ## A twist is a field of velocities
 #
@@ -101,6 +112,8 @@ print(f"you: {guess}, computed: {answer:.4g} m")
 #
 # 给定这六个数,空间中每一点都有速度 $\boldsymbol v + \boldsymbol\omega \times \boldsymbol p$。这里关节全部锁死,
 # 所以整个机器人只有一个 spatial twist。各部分的 body twist 是在自己所在处读这个场,spatial twist 是在原点读。
+# %%
+tw.ask("49.2-centre", ...)
 # %%
 spatial_of = {name: tw.frame_jacobian(model, q, name, "world") @ v for name in ("base", "FR_foot", "RL_calf")}
 assert all(np.allclose(V, spatial, atol=1e-15) for V in spatial_of.values())
@@ -128,29 +141,46 @@ plt.show()
 centre = tw.screw(spatial).point
 assert np.allclose(centre, [1.0, 0.5 + 0.8 / 0.6, 0])
 assert np.allclose(plot.point_velocity(spatial, np.array([centre, centre + np.array([0, 0, 1])])), 0, atol=1e-15)
+
+
 # %% [markdown] lang="en"
 # ## From a twist to a motion: hat and exp
 #
 # `hat` writes a twist as the 4 × 4 matrix of $\mathfrak{se}(3)$, `vee` reads it back. If the body twist stays constant,
 # then $\dot T = T\,[\boldsymbol V]$ has the solution $T(t) = T(0)\,e^{[\boldsymbol V] t}$.
 #
-# Take $\boldsymbol V = (0, 0, \omega, v, 0, 0)$, the walk from above. The heading is $\omega t$, the velocity
-# $v\,(\cos\omega t, \sin\omega t)$; its integral is the position, a circle of radius $v/\omega$:
-#
-# $$e^{[\boldsymbol V]t} = \begin{pmatrix} \cos\omega t & -\sin\omega t & 0 & \frac{v}{\omega}\sin\omega t \\
-# \sin\omega t & \cos\omega t & 0 & \frac{v}{\omega}(1 - \cos\omega t) \\ 0 & 0 & 1 & 0 \\ 0 & 0 & 0 & 1 \end{pmatrix}.$$
+# Take $\boldsymbol V = (0, 0, \omega, v, 0, 0)$, the walk from above.
 # %% [markdown] lang="zh"
 # ## 从 twist 到运动:hat 与 exp
 #
 # `hat` 把 twist 写成 $\mathfrak{se}(3)$ 中的 4 × 4 矩阵,`vee` 再读回来。若 body twist 保持不变,
 # 那么 $\dot T = T\,[\boldsymbol V]$ 的解是 $T(t) = T(0)\,e^{[\boldsymbol V] t}$。
 #
-# 取 $\boldsymbol V = (0, 0, \omega, v, 0, 0)$,也就是上面的行走。朝向是 $\omega t$,速度是
+# 取 $\boldsymbol V = (0, 0, \omega, v, 0, 0)$,也就是上面的行走。
+# %% [markdown] lang="en"
+# **Exercise 49.2.2.** Find $e^{[\boldsymbol V]}$ exactly, here at $t = 1$ s; $[\boldsymbol V]$ itself is the first half of the exercise, in your
+# folder. What is folded below is the answer.
+# %% [markdown] lang="zh"
+# **练习 49.2.2。** 求 $e^{[\boldsymbol V]}$ 的精确解,这里取 $t = 1$ s;$[\boldsymbol V]$ 本身是练习的前一半,在你的文件夹里。下面折叠的就是答案。
+# %%
+def arc(omega_z, v_x):
+    """Return the placement exp([V]∧ t) at t = 1 s, V = (0, 0, omega_z, v_x, 0, 0), exactly."""
+    return ...
+
+
+tw.exercises.check("49.2.2", arc)
+# %% [markdown] lang="en" after="49.2.2"
+# The heading is $\omega t$, the velocity $v\,(\cos\omega t, \sin\omega t)$; its integral is the position, a circle of radius $v/\omega$:
+#
+# $$e^{[\boldsymbol V]t} = \begin{pmatrix} \cos\omega t & -\sin\omega t & 0 & \frac{v}{\omega}\sin\omega t \\
+# \sin\omega t & \cos\omega t & 0 & \frac{v}{\omega}(1 - \cos\omega t) \\ 0 & 0 & 1 & 0 \\ 0 & 0 & 0 & 1 \end{pmatrix}.$$
+# %% [markdown] lang="zh" after="49.2.2"
+# 朝向是 $\omega t$,速度是
 # $v\,(\cos\omega t, \sin\omega t)$,积分得到位置,是半径 $v/\omega$ 的圆:
 #
 # $$e^{[\boldsymbol V]t} = \begin{pmatrix} \cos\omega t & -\sin\omega t & 0 & \frac{v}{\omega}\sin\omega t \\
 # \sin\omega t & \cos\omega t & 0 & \frac{v}{\omega}(1 - \cos\omega t) \\ 0 & 0 & 1 & 0 \\ 0 & 0 & 0 & 1 \end{pmatrix}.$$
-# %%
+# %% after="49.2.2"
 V = v[:6]
 assert np.array_equal(tw.vee(tw.hat(V)), V)
 
@@ -159,6 +189,8 @@ walk = tw.exp6(times[:, None] * V)  # thirteen placements at once
 x, y = speed / w * np.sin(w * times), speed / w * (1 - np.cos(w * times))
 assert np.allclose(walk.translation, np.stack([x, y, 0 * x], axis=-1), atol=1e-14)
 assert np.allclose(tw.log6(walk)[1:6], times[1:6, None] * V)  # and back, up to half a turn
+# %%
+tw.ask("49.2-straight", ...)
 # %%
 step = np.eye(4) + tw.hat(V) * times[1]
 straight = np.array([np.linalg.matrix_power(step, k) for k in range(13)])  # the same in twelve straight steps
@@ -179,20 +211,6 @@ print(
     f"after one round the straight steps have det R = {stretched:.1f}; exp has {np.linalg.det(walk.rotation[-1]):.1f}"
 )
 assert stretched > 10
-
-
-# %% [markdown] lang="en"
-# **Your turn**, exercise 49.2.2: write the function in place of the dots and run the cell again. It is checked here; the hints are below
-# the message.
-# %% [markdown] lang="zh"
-# **轮到你了**,练习 49.2.2:把省略号换成你的函数,再运行这个单元格。它当场检查,提示就在消息下方。
-# %%
-def twist_matrix(omega_z, v_x):
-    """Return [V]∧ of V = (0, 0, omega_z, v_x, 0, 0)."""
-    return ...
-
-
-tw.exercises.check("49.2.2", twist_matrix)
 # %% [markdown] lang="en"
 # That is why `model.integrate` uses exp, and why a quaternion that is advanced by $q + \dot q\,dt$ must be normalised.
 #
@@ -233,13 +251,14 @@ plt.show()
 # ## The screws of a leg
 #
 # Each joint is a screw that does not change in the joint's own frame: a hinge has pitch 0. In the world's frame the
-# joints' screws are the columns of the Jacobian. When all joints of the leg move, the calf moves about yet another axis
-# (relative to the base), and this one has a pitch.
+# joints' screws are the columns of the Jacobian. What if all joints of the leg move at once?
 # %% [markdown] lang="zh"
 # ## 一条腿的螺旋
 #
 # 每个关节都是一个螺旋,在关节自己的坐标系里不变:旋转关节的螺距是 0。在世界坐标系里,各关节的螺旋就是雅可比矩阵的列。
-# 腿的所有关节一起动时,小腿(相对基座)绕另一条轴运动,而这条轴有螺距。
+# 如果腿的所有关节一起动呢?
+# %%
+tw.ask("49.2-together", ...)
 # %%
 q = model.standing()
 hip = model.v_slice[model.joint_id("FR_hip_joint")].start
@@ -268,14 +287,20 @@ plt.show()
 # %% [markdown] lang="en"
 # ## As $\boldsymbol\omega \to 0$
 #
-# Without rotation there is no single axis. `tw.screw` returns the direction of the slide and an infinite pitch. Close to
-# that, the point of the axis is $\boldsymbol\omega\times\boldsymbol v/|\boldsymbol\omega|^2$: the rounding of
-# $\boldsymbol v$, about $10^{-16}$, is divided by $|\boldsymbol\omega|$. The velocities of points do not suffer. So draw
-# screws, and compute with twists.
+# Without rotation there is no single axis. `tw.screw` returns the direction of the slide and an infinite pitch. And close to
+# that?
 # %% [markdown] lang="zh"
 # ## 当 $\boldsymbol\omega \to 0$
 #
-# 没有转动就没有唯一的轴,`tw.screw` 返回滑动的方向和无穷大的螺距。接近这种情形时,轴上的点
+# 没有转动就没有唯一的轴,`tw.screw` 返回滑动的方向和无穷大的螺距。接近这种情形时呢?
+# %%
+tw.ask("49.2-slow", ...)
+# %% [markdown] lang="en"
+# The point of the axis is $\boldsymbol\omega\times\boldsymbol v/|\boldsymbol\omega|^2$: the rounding of
+# $\boldsymbol v$, about $10^{-16}$, is divided by $|\boldsymbol\omega|$. The velocities of points do not suffer. So draw
+# screws, and compute with twists.
+# %% [markdown] lang="zh"
+# 轴上的点
 # $\boldsymbol\omega\times\boldsymbol v/|\boldsymbol\omega|^2$ 会把 $\boldsymbol v$ 的舍入误差(约 $10^{-16}$)放大 $1/|\boldsymbol\omega|$ 倍。
 # 而各点的速度不受影响。所以螺旋只用来作图,计算要用 twist。
 # %%
@@ -306,7 +331,7 @@ plt.show()
 # | the chapter, this package | $(\boldsymbol\omega, \boldsymbol v)$ | Featherstone, RBDL, Drake |
 # | Pinocchio's memory | $(\boldsymbol v, \boldsymbol\omega)$ | `Motion`, `Force`, Jacobians, the base's part of `v` |
 #
-# Here only `tw.bridge` swaps, and only the parts of `v` that are a base. A twist in the wrong order is still six numbers:
+# Here only `tw.bridge` swaps, and only the parts of `v` that are a base.
 # %% [markdown] lang="zh"
 # ## 哪一半在前
 #
@@ -315,7 +340,9 @@ plt.show()
 # | 本章、本包 | $(\boldsymbol\omega, \boldsymbol v)$ | Featherstone、RBDL、Drake |
 # | Pinocchio 的内存布局 | $(\boldsymbol v, \boldsymbol\omega)$ | `Motion`、`Force`、雅可比矩阵、`v` 里属于基座的部分 |
 #
-# 这里只有 `tw.bridge` 换序,而且只换 `v` 里属于基座的部分。顺序错了的 twist 照样是六个数:
+# 这里只有 `tw.bridge` 换序,而且只换 `v` 里属于基座的部分。
+# %%
+tw.ask("49.2-order", ...)
 # %%
 forward = np.zeros(model.nv)
 forward[0] = 1.0  # the chapter's listing: 1 m/s along x, in Pinocchio's order

@@ -21,7 +21,7 @@ from misstep.text import Language, Text, default_language, wrapped
 
 __all__ = ["SECTIONS", "Asked", "Question", "ask", "questions"]
 
-SECTIONS = tuple(f"49.{k}" for k in range(3, 12))
+SECTIONS = tuple(f"49.{k}" for k in range(1, 12))
 QUESTIONS = f"{__package__}.questions"
 CLOSE = 0.05
 """A number that is off by no more than this part of the truth is right, unless the question says otherwise."""
