@@ -68,6 +68,8 @@ HALF_WIDTH = rf"(?<=[{HAN}）])[,;:?!] ?|[,;:?!](?=[{HAN}])|(?<=[`$])[,;:](?=[`$
 FULL_WIDTH = {ord(mark): ord(mark) + 0xFEE0 for mark in "(),;:?!"}
 NOT_WORDS = r"`[^`]+`|\$\$[^$]+\$\$|\$[^$]+\$|\]\([^)]*\)"
 QUOTES = rf'{NOT_WORDS}|"([^"]*)"'
+UNITS = r"(?<![A-Za-z])(N m|kg m)(?![A-Za-z])"
+"""Products of units, which Chinese writes with a dot."""
 BRACKETS = rf"{NOT_WORDS}| ?\((?:{NOT_WORDS}|\([^()`$]*\)|[^()`$])*\) ?"
 
 
@@ -107,6 +109,7 @@ def chinese(text: str) -> str:
             lines.append(line)
     text = re.sub(QUOTES, lambda found: f"“{found[1]}”" if found[1] else found[0], "\n".join(lines))
     text = re.sub(BRACKETS, _brackets, text)
+    text = re.sub(UNITS, lambda unit: unit[0].replace(" ", "·"), text)
     return re.sub(HALF_WIDTH, lambda mark: mark[0].strip().translate(FULL_WIDTH), text)
 
 

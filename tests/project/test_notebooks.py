@@ -214,6 +214,7 @@ def test_a_text_without_its_twin_is_refused(tmp_path, cells, message):
         ("[这里](docs/x.md)", "[这里](docs/x.md)"),
         ("1. 忘记 $p$;\n2. 运行 `a`;`b`", "1. 忘记 $p$\uff1b\n2. 运行 `a`\uff1b`b`"),
         ('说"对偶"', "说“对偶”"),
+        ("10 N m 与 2 kg m²", "10 N·m 与 2 kg·m²"),
         ("真的吗?真的!", "真的吗\uff1f真的\uff01"),
     ],
 )
