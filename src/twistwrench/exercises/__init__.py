@@ -35,10 +35,10 @@ commands   ``twistwrench exercises``
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .asking import Asked, ask
+    from .asking import Asked
     from .public import Checked, Status, case, check, hint, mine, solution, start, status
 
-__all__ = ["Asked", "Checked", "Status", "ask", "case", "check", "hint", "mine", "solution", "start", "status"]
+__all__ = ["Asked", "Checked", "Status", "case", "check", "hint", "mine", "solution", "start", "status"]
 
 
 def __getattr__(name: str) -> Any:

@@ -6,14 +6,14 @@ import numpy as np
 
 import twistwrench as tw
 
-Facts = dict[str, float | str]
+from . import Facts
 
 
 def along() -> Facts:
     """Whether the moment of a force changes where the point of reference moves along the line of the force."""
     force, lever = np.array([0, 0, 40.0]), np.array([0.2, -0.1, -0.3])
-    moments = [np.cross(lever - shift * force / 40, force) for shift in (0.0, 0.5)]
-    return {"truth": "same" if np.allclose(*moments) else "grows"}
+    here, above = (np.cross(lever - shift * force / 40, force) for shift in (0.0, 0.5))
+    return {"truth": "same" if np.allclose(here, above) else "grows"}
 
 
 def sign() -> Facts:
@@ -48,7 +48,7 @@ def negligible() -> Facts:
     w, alpha = moving.angular_velocity[calf], moving.angular_acceleration[calf]
     at = tw.forward_kinematics(model, q).placement[calf]
     r = tw.frame_placement(model, q, "FR_foot").translation - at.translation
-    I = at.rotation @ model.inertia[calf].inertia_at_com @ at.rotation.T
+    I = at.rotation @ model.inertia[calf].inertia_at_com @ at.rotation.mT
     relative = v[model.v_slice[calf]] * at.rotation[:, 1]
     turned = np.cross(w - relative, relative)
     terms = [

@@ -6,9 +6,8 @@ import numpy as np
 
 import twistwrench as tw
 
+from . import Facts
 from .gaits import GAITS, acceleration, move
-
-Facts = dict[str, float | str]
 
 
 def air() -> Facts:

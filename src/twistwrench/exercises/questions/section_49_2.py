@@ -6,7 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
-Facts = dict[str, float | str]
+from . import Facts
 
 
 def origin() -> Facts:
@@ -41,7 +41,7 @@ def together() -> Facts:
     model = tw.load("go2")
     q = model.standing()
     hip = model.v_slice[model.joint_id("FR_hip_joint")].start
-    screws = tw.frame_jacobian(model, q, "FR_foot", "world")[:, hip : hip + 3].T
+    screws = tw.frame_jacobian(model, q, "FR_foot", "world")[:, hip : hip + 3].mT
     pitch = 1000 * abs(float(tw.screw(np.array([3.0, -2.0, 4.0]) @ screws).pitch))
     return {"truth": "screw" if pitch > 1e-6 else "hinge", "pitch": pitch}
 
@@ -62,5 +62,5 @@ def order() -> Facts:
     model = tw.load("go2")
     forward = np.zeros(model.nv)
     forward[0] = 1.0
-    twist = tw.forward_kinematics(model, model.standing(), forward).twist[1]
+    twist = np.asarray(tw.forward_kinematics(model, model.standing(), forward).twist)[1]
     return {"truth": ("rolls", "pitches", "turns", "drives", "slides", "rises")[int(np.argmax(np.abs(twist)))]}

@@ -6,15 +6,15 @@ import numpy as np
 
 import twistwrench as tw
 
-Facts = dict[str, float | str]
+from . import Facts
 
 
 def back() -> Facts:
     """Which of three candidates is the inverse of X."""
     T = tw.exp6(np.random.default_rng(3).standard_normal(6))
     R, p, X = T.rotation, T.translation, T.motion_transform()
-    blocks = np.block([[R.T, np.zeros((3, 3))], [-R.T @ tw.skew(p), R.T]])
-    ways = {"transpose": X.T, "sign": tw.motion_transform(R, -p), "blocks": blocks}
+    blocks = np.block([[R.mT, np.zeros((3, 3))], [-R.mT @ tw.skew(p), R.mT]])
+    ways = {"transpose": X.mT, "sign": tw.motion_transform(R, -p), "blocks": blocks}
     (truth,) = (name for name, way in ways.items() if np.allclose(way @ X, np.eye(6), atol=1e-12))
     return {"truth": truth}
 
@@ -30,7 +30,7 @@ def transpose() -> Facts:
     T = tw.exp6(np.random.default_rng(3).standard_normal(6))
     F = np.random.default_rng(4).standard_normal(6)  # in A
     in_B = T.inverse().force_transform() @ F
-    return {"truth": "back" if np.allclose(T.motion_transform().T @ F, in_B) else "nowhere"}
+    return {"truth": "back" if np.allclose(T.motion_transform().mT @ F, in_B) else "nowhere"}
 
 
 def own() -> Facts:
@@ -41,7 +41,7 @@ def own() -> Facts:
     right = [
         name
         for name, T in frames.items()
-        if np.isclose((T.motion_transform().T @ F) @ (T.motion_transform() @ V), F @ V)
+        if np.isclose((T.motion_transform().mT @ F) @ (T.motion_transform() @ V), F @ V)
     ]
     return {"truth": right[0] if len(right) == 1 else "many"}
 
@@ -54,10 +54,12 @@ def first() -> Facts:
     q[model.q_slice[hip].start :][:3] = -0.4, 0.9, -1.6  # the leg put out to the side
     placement = tw.forward_kinematics(model, q).placement
     foot = tw.frame_placement(model, q, "FR_foot")
-    force = np.concatenate([np.zeros(3), foot.rotation.T @ [0, 0, 40.0]])
-    right = (tw.frame_jacobian(model, q, "FR_foot", "local").T @ force)[model.v_slice[hip].start :][:3]
-    F, found = (placement[hip + 2].inverse() @ foot).force_transform() @ force, []
-    for i in (hip + 2, hip + 1, hip):
-        found.insert(0, float((model.joints[i].subspace().T @ F).item()))
-        F = (placement[i].inverse() @ placement[model.parent[i]]).force_transform() @ F
+    force = np.concatenate([np.zeros(3), foot.rotation.mT @ [0, 0, 40.0]])
+    right = (tw.frame_jacobian(model, q, "FR_foot", "local").mT @ force)[model.v_slice[hip].start :][:3]
+    F = (placement[hip + 2].inverse() @ foot).force_transform() @ force
+    axes = [joint.subspace()[:, 0] for joint in model.joints[hip : hip + 3] if joint is not None]
+    found: list[float] = []
+    for i in (2, 1, 0):
+        found.insert(0, float(axes[i] @ F))
+        F = (placement[hip + i].inverse() @ placement[model.parent[hip + i]]).force_transform() @ F
     return {"truth": float(np.isclose(found, right).sum()), "none": 0.0, "all": 3.0}

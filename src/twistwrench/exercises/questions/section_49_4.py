@@ -6,7 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
-Facts = dict[str, float | str]
+from . import Facts
 
 MU = 0.6
 
@@ -68,7 +68,7 @@ def hip() -> Facts:
     target = tw.forward_kinematics(model, q).placement[joint].act(np.array([0.05, 0, 0]))  # on the axis, which is x
     line = target - tw.frame_placement(model, q, "FR_foot").translation
     force = 40 * line / np.linalg.norm(line)
-    torques = (tw.contact_jacobian(model, q, ["FR_foot"]).T @ force)[model.v_slice[joint].start :][:3]
+    torques = (tw.contact_jacobian(model, q, ["FR_foot"]).mT @ force)[model.v_slice[joint].start :][:3]
     return {"truth": "none" if abs(torques[0]) < 1e-12 else "some", "others": float(np.abs(torques[1:]).max())}
 
 

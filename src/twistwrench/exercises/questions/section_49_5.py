@@ -6,7 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
-Facts = dict[str, float | str]
+from . import Facts
 
 
 def point() -> Facts:
@@ -37,7 +37,7 @@ def antisymmetric() -> Facts:
     """Whether it is the matrix V× that is antisymmetric, or the product."""
     V, W = np.random.default_rng(5).standard_normal((2, 6))
     cross = tw.cross_motion(V)
-    matrix, product = np.allclose(cross, -cross.T), np.allclose(cross @ W, -tw.cross_motion(W) @ V)
+    matrix, product = np.allclose(cross, -cross.mT), np.allclose(cross @ W, -tw.cross_motion(W) @ V)
     return {"truth": {(True, True): "both", (False, True): "product", (True, False): "matrix"}[matrix, product]}
 
 

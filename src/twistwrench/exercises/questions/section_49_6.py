@@ -6,7 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
-Facts = dict[str, float | str]
+from . import Facts
 
 
 def slider() -> Facts:
@@ -49,7 +49,8 @@ def overwritten() -> Facts:
     model = tw.load("go2")
     q, (v, a) = model.standing(), np.random.default_rng(6).standard_normal((2, model.nv))
     terms = tw.rnea_terms(model, q, v, a)
-    alone = [float(model.joints[i].subspace()[:, 0] @ terms.B[i]) for i in range(2, 5)]
+    leg = zip(model.joints[2:5], terms.B[2:5], strict=True)
+    alone = [float(joint.subspace()[:, 0] @ own) for joint, own in leg if joint is not None]
     right = [
         name for name, torque, tau in zip(("hip", "thigh", "calf"), alone, terms.tau[6:9]) if np.isclose(torque, tau)
     ]

@@ -6,7 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
-Facts = dict[str, float | str]
+from . import Facts
 
 
 def both() -> Facts:
@@ -36,7 +36,7 @@ def fill() -> Facts:
     leg = np.repeat(np.arange(4), 3)
     apart = np.tril(leg[:, None] != leg)
     base_first = np.linalg.cholesky(M)[6:, 6:]
-    tips_first = np.linalg.cholesky(M[::-1, ::-1])[::-1, ::-1].T[6:, 6:]
+    tips_first = np.linalg.cholesky(M[::-1, ::-1])[::-1, ::-1].mT[6:, 6:]
     filled, other = (float((np.abs(factor[apart]) > 1e-12).sum()) for factor in (base_first, tips_first))
     return {"truth": filled, "none": other, "half": filled / 2}
 
@@ -61,5 +61,5 @@ def recipe() -> Facts:
     """Effect on M of doubling its entries off the diagonal."""
     model = tw.load("go2")
     M = tw.crba(model, model.random_configuration(rng=np.random.default_rng(8)))
-    least = float(np.linalg.eigvalsh(M + M.T - np.diag(M.diagonal())).min())
+    least = float(np.linalg.eigvalsh(M + M.mT - np.diag(M.diagonal())).min())
     return {"truth": "negative" if least < 0 else "larger", "least": least}

@@ -6,7 +6,7 @@ import numpy as np
 
 import twistwrench as tw
 
-Facts = dict[str, float | str]
+from . import Facts
 
 HIP_WIDTH, LEG = 0.0955, 0.426  # m, of Go2: from the hip's axis to the thigh, and thigh and calf together
 
@@ -27,9 +27,9 @@ def least() -> Facts:
     model = tw.load("go2")
     q = model.standing()
     held, J, g = tw.static_equilibrium(model, q), tw.contact_jacobian(model, q, model.feet), tw.gravity(model, q)
-    free = np.linalg.svd(J[:, :6].T)[2][6:].T  # changes of the forces that the base does not notice
-    change = free @ np.linalg.lstsq(J[:, 6:].T @ free, held.tau)[0]
-    best = (g - J.T @ (held.forces.ravel() + change))[6:]
+    free = np.linalg.svd(J[:, :6].mT)[2][6:].mT  # changes of the forces that the base does not notice
+    change = free @ np.linalg.lstsq(J[:, 6:].mT @ free, held.tau)[0]
+    best = (g - J.mT @ (held.forces.ravel() + change))[6:]
     sizes = float(np.linalg.norm(held.tau)), float(np.linalg.norm(best))
     return {"truth": "no" if sizes[1] < 0.99 * sizes[0] else "yes", "forces": sizes[0], "best": sizes[1]}
 
