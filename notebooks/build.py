@@ -128,7 +128,7 @@ FOLDED = {"jupyter": {"source_hidden": True}, "tags": ["hide-input"], "cellView"
 """For JupyterLab, for the site, for Colab."""
 AFTER = {"en": "After you have solved {}", "zh": "做完练习 {} 之后再看"}
 """The heading of what tells the answer of an exercise."""
-SETUP = {"en": "# What the rest needs", "zh": "# 后面要用的准备"}
+SETUP = {"en": "# Set-up", "zh": "# 准备"}
 """The first line of a cell that prepares."""
 FOLDED_AFTER = {**FOLDED, "jupyter": {"source_hidden": True, "outputs_hidden": True}, "tags": ["hide-cell"]}
 """The same, with the outputs."""

@@ -34,13 +34,13 @@ print({"M": d.M.shape, "h": d.h.shape, "S": S.shape, "J_c": d.J_c.shape})
 # %% [markdown] lang="en"
 # ## What stands where
 #
-# Eighteen rows: six for the base, three for each leg. $S^T$ puts the twelve torques into the rows of the joints. The
+# Eighteen rows: six for the base, three for each leg. The
 # columns of $J_c^T$ are the forces at the four feet, three components each. (The chapter writes $\dot q$ for what the
 # code calls `v`: eighteen numbers. The derivative of `q` would have nineteen.) $J_c\dot q$ is the velocity of the feet.
 # %% [markdown] lang="zh"
 # ## 各个量的位置
 #
-# 十八行:基座六行,每条腿三行。$S^T$ 把十二个力矩放进关节行。$J_c^T$ 的列对应四只脚的力,每只脚三个分量。
+# 十八行:基座六行,每条腿三行。$J_c^T$ 的列对应四只脚的力,每只脚三个分量。
 # (本章写的 $\dot q$ 就是代码里的 `v`,有十八个数;`q` 真正的导数有十九个数。)$J_c\dot q$ 是各只脚的速度。
 # %% [markdown] lang="en"
 # **Exercise 49.9.2.** Write $S^T\tau$ without any matrix; $S$ itself is the other half of the exercise, in your folder.
@@ -53,6 +53,10 @@ def on_all_rows(tau):
 
 
 tw.exercises.check("49.9.2", on_all_rows)
+# %% [markdown] lang="en" after="49.9.2"
+# $S^T$ puts the twelve torques into the rows of the joints, and nothing into those of the base.
+# %% [markdown] lang="zh" after="49.9.2"
+# $S^T$ 把十二个力矩放进关节行,基座行里什么也没有。
 # %%
 rows = [*plot.ANGULAR_LINEAR, *(name.removesuffix("_joint") for name in model.joint_names[2:])]
 figure, axes = plt.subplots(1, 3, figsize=(12, 5.2), width_ratios=[18, 12, 12], layout="constrained")

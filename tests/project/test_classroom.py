@@ -116,6 +116,17 @@ def test_a_check_in_a_cell_needs_no_thread_in_a_browser(monkeypatch):
     assert [kind for kind, _ in classroom.run(cell, "page", "cell 1")] == ["html"]
 
 
+def test_a_question_is_asked_and_judged_in_a_page():
+    def shown(cell):
+        ((kind, text),) = classroom.run(f"import twistwrench as tw\n{cell}", "page", "cell 1")
+        assert kind == "html"
+        return text
+
+    assert "tw-to-do" in shown('tw.ask("49.7-knees", ...)')
+    assert "tw-wrong" in shown('tw.ask("49.7-knees", "a", language="zh")')
+    assert "tw-right" in shown('tw.ask("49.7-knees", "c")')
+
+
 def test_hints_come_one_by_one_and_then_the_solution():
     state, texts = "", []
     for _ in range(3):

@@ -221,7 +221,8 @@
 
   function addCell(box, number) {
     const cell = Object.assign(editable(box.querySelector(".cell_input pre"), `cell/${PAGE}/${number}`), { number, done: false });
-    cell.box = box.querySelector(":scope > .cell_output") ?? box.appendChild(element("div", { className: "cell_output docutils container" }));
+    const fold = box.querySelector(":scope.tag_hide-cell > details") ?? box; // its outputs are folded away with it
+    cell.box = fold.querySelector(":scope > .cell_output") ?? fold.appendChild(element("div", { className: "cell_output docutils container" }));
     const before = [...cell.box.childNodes], act = () => runTo(number).catch(() => {});
     const back = () => { cell.reset(); cell.done = false; cell.box.replaceChildren(...before); };
     const tools = element("div", { className: "run-tools" }, button(`▶ ${SAY.run}`, act, number ? SAY.above : ""), button(SAY.reset, back));

@@ -135,9 +135,11 @@ class Asked:
         """
         if self.guess is not None:
             line = ax.axvline if axis == "x" else ax.axhline
-            line(self.guess, color="#d55e00", linestyle="--", label=self._say("guess"))
-            line(self.truth, color="#0072b2", linestyle=":", label=self._say("truth"))
-            ax.legend(fontsize=8)
+            lines = [
+                line(number, color="#cc79a7", linestyle=style, label=self._say(key))
+                for number, style, key in ((self.guess, "--", "guess"), (self.truth, ":", "truth"))
+            ]
+            ax.legend(handles=None if ax.get_legend() else lines, fontsize=8)
 
     def _is(self, answer: Any) -> bool:
         """Whether the guess is an answer, as closely as the question wants it."""

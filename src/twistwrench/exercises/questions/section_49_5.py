@@ -59,7 +59,7 @@ def turnover() -> Facts:
     for k, name in enumerate(("smallest", "middle", "largest")):
         spin = np.array([0.02, 0.02, 0.02, 0, 0, 0])
         spin[k] += 4
-        rates = np.asarray(tw.simulate(body, body.neutral(), spin, dt=0.02, duration=6.0).v)[:, k]
+        rates = np.asarray(tw.simulate(body, body.neutral(), spin, dt=0.05, duration=6.0).v)[:, k]
         found += [name] * bool(rates.min() < 0)
     (truth,) = found
     return {"truth": truth, "small": float(moments[0]), "middle": float(moments[1]), "large": float(moments[2])}
