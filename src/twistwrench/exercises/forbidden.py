@@ -15,6 +15,7 @@ FORBIDDEN: dict[str, tuple[str, ...]] = {
     "base_wrench_at_rest": (*RNEA, "gravity", "nonlinear_effects", "dynamics"),
     "mass_matrix_by_rnea": (*M, "kinetic_energy"),
     "base_block": (*M, *RNEA),
+    "center_of_pressure": ("center_of_pressure",),
     "on_all_rows": ("selection_matrix",),
     "momentum_of_links": A_G,
     "own_centroidal_map": A_G,
