@@ -1,7 +1,9 @@
 """The questions of the notebooks: each answer is found a second time, by a closed form or by another program."""
 
 import re
+import tomllib
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -536,6 +538,16 @@ def test_a_question_is_in_both_languages_with_the_same_numbers(name):
         assert not re.search("[\u4e00-\u9fff]", text.en)
         assert re.search("[\u4e00-\u9fff]", text.zh) or text.en == text.zh
         assert sorted(re.findall(r"\{.*?\}", text.en)) == sorted(re.findall(r"\{.*?\}", text.zh))
+
+
+@pytest.mark.parametrize("section", SECTIONS)
+def test_a_data_file_holds_what_is_used_and_nothing_else(section):
+    file = Path(tw.exercises.__file__).parent / "questions" / f"section_{section.replace('.', '_')}.toml"
+    for name, entry in tomllib.loads(file.read_text(encoding="utf-8")).items():
+        kinds = {"choices"} if "choices" in entry else {"unit", "rtol", "atol"}
+        assert {"text", "why", "usual"} <= set(entry) <= {"text", "why", "usual"} | kinds, name
+        pairs = [entry["text"], entry["why"], *entry["usual"].values(), *entry.get("choices", {}).values()]
+        assert {len(pair) for pair in pairs} == {2}, name
 
 
 def test_a_guess_that_is_near_is_right_and_another_is_told_by_how_much():
