@@ -516,7 +516,7 @@ def test_the_right_guess_is_right_and_the_usual_wrong_ones_get_their_sentence(na
     question, facts = ALL[name], ALL[name].compute()
 
     def told(answer):
-        return tw.ask(name, question.letter(answer) if question.choices else answer, language=language)
+        return Asked(question, facts, answer, language)
 
     assert told(facts["truth"]).right is True
     for wrong, said in question.usual.items():
@@ -526,7 +526,7 @@ def test_the_right_guess_is_right_and_the_usual_wrong_ones_get_their_sentence(na
     if question.choices:
         assert {*question.choices} == {*question.usual, facts["truth"]}  # no choice without its sentence
     assert len(question.usual) >= 1
-    shown = tw.ask(name, ..., language=language)
+    shown = Asked(question, facts, None, language)
     assert shown.right is None
     assert "{" not in repr(told(facts["truth"])) + repr(shown)
 
