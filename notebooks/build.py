@@ -64,7 +64,7 @@ METADATA = {
 HAN = "\u4e00-\u9fff"
 LINE_END = rf"[{HAN},;:?!、。]\n[{HAN}]|[,;:?!、。]\n([A-Za-z]|\*\*|\$(?!\$)|`(?!``))"
 """Where a line ends and no blank may show."""
-HALF_WIDTH = rf"(?<=[{HAN}）])[,;:?!] ?|[,;:?!](?=[{HAN}])|(?<=[`$])[,;:](?=[`$]|\n)"
+HALF_WIDTH = rf"(?<=[{HAN}）])[,;:?!] ?|[,;:?!](?=[{HAN}])|(?<=[`$])[,;:] ?(?=[`$A-Za-z]|\n)"
 FULL_WIDTH = {ord(mark): ord(mark) + 0xFEE0 for mark in "(),;:?!"}
 NOT_WORDS = r"`[^`]+`|\$\$[^$]+\$\$|\$[^$]+\$|\]\([^)]*\)"
 QUOTES = rf'{NOT_WORDS}|"([^"]*)"'
@@ -116,7 +116,7 @@ def chinese(text: str) -> str:
 def _brackets(found: re.Match[str]) -> str:
     """Widen brackets that hold Chinese, or stand right behind it; others, code and formulas stay as they are."""
     text, words = found[0], re.sub(NOT_WORDS, "", found[0])
-    behind = text[0] == "(" and re.match(f"[{HAN}]", found.string[found.start() - 1])
+    behind = text[0] == "(" and re.match(f"[{HAN}$*`]", found.string[found.start() - 1])
     if words.strip()[:1] != "(" or not (behind or re.search(f"[{HAN}]", words)):
         return text
     return f"（{text.strip()[1:-1]}）"

@@ -439,13 +439,11 @@ assert np.linalg.matrix_rank(twice) == 5
 # %% [markdown] lang="en"
 # ## Pinocchio
 #
-# `getFrameJacobian` has the *linear* rows first: a point contact takes rows 0 to 2. The listing in 49.11 takes rows 3
-# to 5, the angular ones. The resulting matrix has the right shape, but its rank is 9.
+# `getFrameJacobian` has the *linear* rows first: a point contact takes rows 0 to 2.
 # %% [markdown] lang="zh"
 # ## 与 Pinocchio 对照
 #
-# `getFrameJacobian` 的*线速度*行在前:点接触取第 0 到 2 行。49.11 的代码取了第 3 到 5 行,那是角速度行。这样得到的矩阵形状没错,
-# 秩却是 9。
+# `getFrameJacobian` 的*线速度*行在前:点接触取第 0 到 2 行。
 # %%
 try:
     import pinocchio as pin

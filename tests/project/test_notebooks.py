@@ -214,6 +214,8 @@ def test_a_text_without_its_twin_is_refused(tmp_path, cells, message):
         ("[这里](docs/x.md)", "[这里](docs/x.md)"),
         ("1. 忘记 $p$;\n2. 运行 `a`;`b`", "1. 忘记 $p$\uff1b\n2. 运行 `a`\uff1b`b`"),
         ('说"对偶"', "说“对偶”"),
+        ("螺距为 $h$;twist 的轴", "螺距为 $h$\uff1btwist 的轴"),
+        ("$S$(49.8)与**压力中心**(COP)", "$S$\uff0849.8\uff09与**压力中心**\uff08COP\uff09"),
         ("10 N m 与 2 kg m²", "10 N·m 与 2 kg·m²"),
         ("真的吗?真的!", "真的吗\uff1f真的\uff01"),
     ],
