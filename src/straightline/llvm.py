@@ -29,6 +29,10 @@ PIECE = 800  # instructions that are compiled at once
 LONG = 750_000
 """Letters of a text for which LLVM assigns registers in its quickest way: what comes out is a few per cent slower."""
 
+MOST_KEPT = 2**17
+"""Bytes of values in memory up to which the states of two registers take turns in each piece: its instructions are then
+fetched once for both, which takes as long as half of them."""
+
 Group = tuple[int, int, Sequence[int]]
 """Results that are stored together: their array, the place of the first one, and their nodes."""
 
@@ -115,7 +119,7 @@ class Pieces:
 
     When all registers are taken, the value whose next use is farthest goes to memory (Bélády), and is loaded when it is
     needed again. LLVM would find out itself, in twice the time. In `turns` is what is to be written, after the nodes
-    that it needs: each node to compute, in the end each group of results, in the order of memory.
+    that it needs: each node to compute, each group of results that lie next to each other as soon as they are there.
     """
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:
@@ -137,13 +141,16 @@ class Pieces:
         self.due = {k: turns[-1] for k, turns in self.uses.items()}
 
     def _turns(self) -> Iterator[tuple[set[int], int, Group | None]]:
+        groups = list[Group]()
+        for array, (_, entries) in enumerate(self.line.outputs.values(), len(self.line.inputs)):
+            groups += [(array, k, entries[k : k + self.width]) for k in range(0, len(entries), self.width)]
+        groups.sort(key=lambda group: -max(group[2]))  # the last one is there first
         for k, node in enumerate(self.line.nodes):
             if node[0] not in LEAVES:
                 yield {*node[1:]}, k, None
-        for array, (_, entries) in enumerate(self.line.outputs.values(), len(self.line.inputs)):
-            for start in range(0, len(entries), self.width):
-                group = entries[start : start + self.width]
-                yield {*group}, 0, (array, start, group)
+            while groups and max(groups[-1][2]) <= k:
+                group = groups.pop()
+                yield {*group[2]}, 0, group
 
     def compute(self, k: int) -> None:
         """Write the operation of a node."""
@@ -225,14 +232,18 @@ class Pieces:
         """Return all pieces, and the loop that calls them; its last turn ends with the last state."""
         declared = sorted(set().union(*(text.declared for text in self.finished)))
         arguments = "ptr %table, i64 %state, ptr %kept, ptr %constants"
-        pieces = []
+        pieces, calls = [], []
         for k, text in enumerate(self.finished):
             head = f"define internal void @piece{k}({arguments}) optnone noinline {{"
             pieces.append("\n  ".join([head, *text.lines, "ret void\n}"]))
-        calls = "\n  ".join(f"call void @piece{k}({arguments})" for k in range(len(pieces)))
+            calls.append(CALL.format(k=k, following=k + 1, before=f"call{k - 1}" if k else "turn"))
         constants = [f"%V {one}" for one in self.text.constants] or ["%V undef"]
         table = f"@constants = internal constant [{len(constants)} x %V] [{', '.join(constants)}]"
-        loop = LOOP.format(width=self.width, slots=max(1, self.slots), calls=calls)
+        slots = max(1, self.slots)
+        together = 2 if 1 < self.width and 2 * slots * self.width * self.text.bytes <= MOST_KEPT else 1
+        loop = "".join([LOOP, *calls, END]).format(
+            width=self.width, slots=slots, together=together, all=together * slots, k=len(pieces) - 1, end=len(pieces)
+        )
         vector = f"<{self.width} x {self.text.scalar}>" if self.width > 1 else self.text.scalar
         return "\n".join([f"%V = type {vector}", *declared, table, *pieces, loop])
 
@@ -240,18 +251,34 @@ class Pieces:
 LOOP = """
 define void @program(ptr %table, i64 %count) {{
 start:
-  %kept = alloca %V, i64 {slots}, align 64
+  %all = alloca %V, i64 {all}, align 64
   %constants = getelementptr i8, ptr @constants, i64 0
   %last = sub i64 %count, {width}
   br label %turn
 turn:
-  %state = phi i64 [0, %start], [%next, %turn]
-  {calls}
-  %following = add i64 %state, {width}
-  %beyond = icmp sgt i64 %following, %last
-  %next = select i1 %beyond, i64 %last, i64 %following
-  %more = icmp slt i64 %following, %count
-  br i1 %more, label %turn, label %end
+  %first = phi i64 [0, %start], [%following{k}, %call{end}]
+  br label %call0
+"""
+
+CALL = """call{k}:
+  %place{k} = phi i64 [0, %{before}], [%next{k}, %call{k}]
+  %done{k} = mul i64 %place{k}, {{width}}
+  %wanted{k} = add i64 %first, %done{k}
+  %beyond{k} = icmp sgt i64 %wanted{k}, %last
+  %state{k} = select i1 %beyond{k}, i64 %last, i64 %wanted{k}
+  %start{k} = mul i64 %place{k}, {{slots}}
+  %kept{k} = getelementptr %V, ptr %all, i64 %start{k}
+  call void @piece{k}(ptr %table, i64 %state{k}, ptr %kept{k}, ptr %constants)
+  %next{k} = add i64 %place{k}, 1
+  %following{k} = add i64 %wanted{k}, {{width}}
+  %left{k} = icmp slt i64 %following{k}, %count
+  %room{k} = icmp slt i64 %next{k}, {{together}}
+  %again{k} = and i1 %left{k}, %room{k}
+  br i1 %again{k}, label %call{k}, label %call{following}
+"""
+
+END = """call{end}:
+  br i1 %left{k}, label %turn, label %end
 end:
   ret void
 }}
