@@ -55,6 +55,7 @@ llvm           machine code, by LLVM
 source         a line as text: Python and C, with names and comments if the tape took notes
 pairs          arithmetic with pairs of doubles, sin and cos
 double_double  a line rewritten into pairs, with bounds
+running        a line with a bound beside each number, in the same numbers
 packs          operations that NumPy can do in one call
 registers      NumPy, for every number type
 fingerprints   what is the same number for all arguments, computed once

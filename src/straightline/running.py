@@ -21,13 +21,14 @@ Nothing is estimated, and where nothing is certain, as in a quotient by what may
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from math import ceil
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from .double_double import BOUND
 from .line import Line, renumbered
 from .number import Number, Tape, is_power_of_two, without_garbage
 from .sine import SINE_ROUNDINGS, known_sines
@@ -60,20 +61,33 @@ class Off(NamedTuple):
 
 
 @without_garbage()
-def with_running_bound(line: Line, dtype: np.dtype[Any], *, bound: str, plain: Collection[str] = (), fma: bool) -> Line:
+def with_running_bound(line: Line, dtype: np.dtype[Any], *, alarm: str | None = None, fma: bool) -> Line:
     """Return a line of a number type, float32 or float64, in which each result is followed by its bound.
 
-    Those are called as the results, with `bound` at the end; the results in `plain` have none. Sines and cosines are
-    for angles up to 2¹⁷ rad. `fma` is whether what runs the line has a b + c with one rounding, and the sines of
-    `with_series`; else a sine is compared with one that is known to be right.
+    Sines and cosines are for angles up to 2¹⁷ rad.
+
+    Parameters
+    ----------
+    line : Line
+        Of + − × ÷, sin, cos and square roots.
+    dtype : dtype
+    alarm : str, optional
+        A result that has no bound, and is no number where one of the bounds is none or is infinite.
+    fma : bool
+        Whether what runs the line has a b + c with one rounding, and the sines of `with_series`; else a sine is
+        compared with one that is known to be right.
     """
     running = Running(dtype, fma)
     for node in line.nodes:
         running.compute(node)
-    results: dict[str, Any] = {}
+    results, bounds = dict[str, Any](), list[Any]()
     for name, (shape, entries) in line.outputs.items():
         columns = {name: [Number(running.tape, running.index[k]) for k in entries]}
-        columns |= {} if name in plain else {name + bound: [running.certain(k) for k in entries]}
+        if name == alarm:
+            columns = {name: [running.alarmed(x, bounds) for x in columns[name]]}
+        else:
+            columns[name + BOUND] = [running.certain(k) for k in entries]
+            bounds += columns[name + BOUND]
         results |= {column: np.array(values, object).reshape(shape) for column, values in columns.items()}
     return Line.of(running.tape, line.inputs, results)
 
@@ -231,6 +245,11 @@ class Running:
     def certain(self, k: int) -> Any:
         """Write the bound of a result."""
         return NOTHING if self.off[k] == Off() else self.sum_of(self.least, (self.u * LARGER, self.factor(k)))
+
+    def alarmed(self, alarm: Number, bounds: Sequence[Any]) -> Number:
+        """Write an alarm that is not a number either where one of the bounds so far is infinite, or none."""
+        total = sum((x for x in bounds if isinstance(x, Number)), NOTHING)
+        return alarm + self.tape.apply("mul", NOTHING, total)
 
     def size(self, k: int) -> Any:
         """Write |x̂|."""
