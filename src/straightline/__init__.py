@@ -51,6 +51,7 @@ number         `Number`, which only remembers what is done to it, and the `Tape`
 line           `Line`: the operations that a question needs, one after the other
 sine           sin and cos as arithmetic, for many angles at once
 instructions   LLVM's language: arithmetic, and the way in and out of memory
+objects        machine code on disk, for the next process
 llvm           machine code, by LLVM
 source         a line as text: Python and C, with names and comments if the tape took notes
 pairs          arithmetic with pairs of doubles, sin and cos

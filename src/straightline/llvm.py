@@ -8,12 +8,14 @@ what the operations say, to the last bit.
 from __future__ import annotations
 
 import ctypes
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
 
+from . import objects
 from .instructions import InstructionText
 from .line import LEAVES, Line
 from .number import Array, without_garbage
@@ -32,6 +34,9 @@ LONG = 750_000
 MOST_KEPT = 2**17
 """Bytes of values in memory up to which the states of two registers take turns in each piece: its instructions are then
 fetched once for both, which takes as long as half of them."""
+
+MAX_ENGINES = 32  # that are remembered in case that the same line is made again
+ENGINES: dict[str, Any] = {}  # by the name of the line, the last used at the end
 
 Group = tuple[int, int, Sequence[int]]
 """Results that are stored together: their array, the place of the first one, and their nodes."""
@@ -70,7 +75,7 @@ class MachineCode:
     """A line as machine code, `width` states at once, a power of two: a function of a table and a number of states."""
 
     def __init__(self, line: Line, dtype: np.dtype[Any], width: int) -> None:
-        self._engine = engine_of(written(line, NATIVE[dtype], width))  # keeps the code alive
+        self._engine = engine_for(line, NATIVE[dtype], width)  # keeps the code alive
         self.address: int = self._engine.get_function_address("program")
         self._call = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int64)(self.address)
 
@@ -80,20 +85,68 @@ class MachineCode:
         self._call(table.ctypes.data, len(arrays[0]))
 
 
-@lru_cache(maxsize=32)  # the same line, made again, has the same text
+def engine_for(line: Line, scalar: str, width: int) -> Any:
+    """Return what holds the machine code of a line: from this process, from the disk (`objects`), or compiled now."""
+    key = key_of(line, scalar, width)
+    engine = ENGINES.pop(key, None)
+    if engine is None:
+        code = objects.fetch(key)
+        if code is None:
+            code = compiled(written(line, scalar, width))
+            objects.keep(key, code)
+        engine = loaded(code)
+    ENGINES[key] = engine
+    for forgotten in [*ENGINES][:-MAX_ENGINES]:
+        ENGINES.pop(forgotten, None)
+    return engine
+
+
+def key_of(line: Line, scalar: str, width: int) -> str:
+    """Return a name for all that the machine code of a line depends on."""
+    from hashlib import sha256
+
+    import llvmlite
+    import llvmlite.binding as llvm
+
+    versions = sys.version, llvmlite.__version__, llvm.llvm_version_info, objects.own_source()
+    processor = llvm.get_default_triple(), llvm.get_host_cpu_name(), sorted(llvm.get_host_cpu_features().items())
+    text = repr((versions, processor, scalar, width, register_bits(), [*line.nodes], [*line.inputs.items()], [*line.outputs.items()]))
+    return sha256(text.encode()).hexdigest()
+
+
+@lru_cache(maxsize=32)  # the same function, made again, has the same text
 def engine_of(text: str) -> Any:
     """Return what holds the machine code of a text in LLVM's language, for this processor."""
+    return loaded(compiled(text))
+
+
+def compiled(text: str) -> bytes:
+    """Return a text in LLVM's language as an object file for this processor."""
+    import llvmlite.binding as llvm
+
+    code: bytes = host(0 if len(text) > LONG else 1).emit_object(llvm.parse_assembly(text))
+    return code
+
+
+def loaded(code: bytes) -> Any:
+    """Return what holds the machine code of an object file."""
+    import llvmlite.binding as llvm
+
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), host(1))
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    return engine
+
+
+def host(effort: int) -> Any:
+    """Return LLVM's description of this processor."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     features = llvm.get_host_cpu_features().flatten()
-    host = llvm.Target.from_default_triple().create_target_machine(
-        opt=0 if len(text) > LONG else 1, cpu=llvm.get_host_cpu_name(), features=features
-    )
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(text), host)
-    engine.finalize_object()
-    return engine
+    name = llvm.get_host_cpu_name()
+    return llvm.Target.from_default_triple().create_target_machine(opt=effort, cpu=name, features=features, jit=True)
 
 
 @without_garbage()
