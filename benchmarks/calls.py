@@ -65,7 +65,7 @@ class Call(NamedTuple):
 
 
 def of_dynamics(model: tw.Model) -> Iterator[Call]:
-    """M, h, J_c of the feet and A_G, whose contacts are given in several ways."""
+    """Yield calls for M, h, J_c of the feet and A_G, whose contacts are given in several ways."""
     s = random_states(model, LOOP)
     q, v, feet, want = s.q[0], s.v[0], tuple(model.feet), ("M", "h", "J_c", "A_G")
     points = tuple(tw.PointContact(name, 0.6) for name in feet)
@@ -82,7 +82,7 @@ def of_dynamics(model: tw.Model) -> Iterator[Call]:
 
 
 def of_rnea(model: tw.Model) -> Iterator[Call]:
-    """One state, and what can be added to the call."""
+    """Yield calls for one state, and what can be added to them."""
     s = random_states(model, LOOP)
     args = [x[0].copy() for x in s]
     out, f = np.empty(model.nv), np.random.default_rng(1).standard_normal((model.nbodies, 6))
@@ -101,7 +101,7 @@ def of_rnea(model: tw.Model) -> Iterator[Call]:
 
 
 def of_states(model: tw.Model) -> Iterator[Call]:
-    """Some states in a call, and a loop over them."""
+    """Yield calls with some states, and a loop over them."""
     s = random_states(model, max(SIZES))
     each = list(zip(s.q[:LOOP], s.v[:LOOP], s.a[:LOOP]))
 
@@ -116,7 +116,7 @@ def of_states(model: tw.Model) -> Iterator[Call]:
 
 
 def of_steps(model: tw.Model) -> Iterator[Call]:
-    """Steps on the manifold of configurations."""
+    """Yield steps on the manifold of configurations."""
     s = random_states(model, LOOP)
     q, v, other = s.q[0], s.v[0], s.q[1]
     there, pin = _of_pinocchio(model)
@@ -126,7 +126,8 @@ def of_steps(model: tw.Model) -> Iterator[Call]:
     def each(call: Callable[..., Any]) -> Callable[[], Any] | None:
         return (lambda: [call(*state) for state in states]) if pin else None
 
-    yield Call("`model.integrate`", lambda: model.integrate(q, v), 1, each(lambda x, u, y: pin.integrate(there, x, u)), True)
+    theirs = each(lambda x, u, y: pin.integrate(there, x, u))
+    yield Call("`model.integrate`", lambda: model.integrate(q, v), 1, theirs, True)
     ways: tuple[tuple[str, tuple[Any, ...], Any], ...] = (
         ("integrate", (q, v), lambda x, u, y: pin.integrate(there, x, u)),
         ("difference", (q, other), lambda x, u, y: pin.difference(there, x, y)),
@@ -134,12 +135,12 @@ def of_steps(model: tw.Model) -> Iterator[Call]:
         ("d_integrate", (q, v), lambda x, u, y: pin.dIntegrate(there, x, u)),
         ("d_difference", (q, other), lambda x, u, y: pin.dDifference(there, x, y)),
     )
-    for name, args, theirs in ways:
-        yield Call(f"`fast.{name}`", _of_fast(name, model, *args), 1, each(theirs))
+    for name, args, one in ways:
+        yield Call(f"`fast.{name}`", _of_fast(name, model, *args), 1, each(one))
 
 
 def of_frames(model: tw.Model) -> Iterator[Call]:
-    """What a control loop asks of frames, of the centre of mass and of energies, beside the RNEA."""
+    """Yield what a control loop asks of frames, of the centre of mass and of energies, beside the RNEA."""
     s = random_states(model, LOOP)
     q, v, a, foot = s.q[0], s.v[0], s.a[0], (model.feet or model.frame_names)[-1]
     yield Call("`fast.rnea`", lambda: tw.fast.rnea(model, q, v, a), 1, _pin("rnea", model, s), True)
@@ -155,7 +156,7 @@ def of_frames(model: tw.Model) -> Iterator[Call]:
 
 
 def of_contacts(model: tw.Model) -> Iterator[Call]:
-    """q̈ and λ with all feet held, beside the ABA in the air."""
+    """Yield calls for q̈ and λ with all feet held, beside the ABA in the air."""
     s = random_states(model, LOOP)
     q, v, tau = s.q[0], s.v[0], s.a[0]
     feet = tuple(tw.PointContact(name, 0.6) for name in model.feet)
@@ -169,7 +170,7 @@ def of_contacts(model: tw.Model) -> Iterator[Call]:
 
 
 def of_bounds(model: tw.Model) -> Iterator[Call]:
-    """How far the result is off at most."""
+    """Yield programs without a bound, and with each kind."""
     many = random_states(model, 1000)
     for quantity in ("rnea", "aba"):
         for n in (1, 1000):
@@ -181,7 +182,7 @@ def of_bounds(model: tw.Model) -> Iterator[Call]:
 
 
 def of_chains(_: tw.Model) -> Iterator[Call]:
-    """Chains of revolute joints: the time for a joint."""
+    """Yield calls for chains of revolute joints, whose time is that for a joint."""
     for name in ("rnea", "aba"):
         for n in LENGTHS:
             chain = tw.chain(n)
@@ -191,7 +192,7 @@ def of_chains(_: tw.Model) -> Iterator[Call]:
 
 
 def of_peers(model: tw.Model) -> Iterator[Call]:
-    """Other packages that take a floating base, each for one state, and for 1000 where it takes many."""
+    """Yield calls of packages that take a floating base, for one state, and for 1000 where they take many."""
     from peers import peers as installed
 
     from twistwrench.loading.catalogue import find
@@ -216,29 +217,7 @@ ARGUMENTS = {"rnea": 3, "aba": 3, "crba": 1, "h": 2, "M": 1}
 
 
 def of_arm(_: tw.Model) -> Iterator[Call]:
-    """An arm of seven joints, for packages that take no floating base: dynibo."""
-    from twistwrench.loading.catalogue import find
-
-    arm = tw.load(ARM)
-    s = random_states(arm, LOOP)
-    q, v, a = s.first(1)
-    urdf = str(find(ARM).path)
-    for name, theirs, args in (
-        ("rnea", "inverse_dynamics", (q, v, a)),
-        ("aba", "forward_dynamics", (q, v, a)),
-        ("crba", "mass_matrix", (q,)),
-    ):
-        yield Call(f"`fast.{name}`, an arm", _of_fast(name, arm, *args), 1, _pin(name, arm, s), True)
-        yield Call("… dynibo", _of_dynibo(urdf, theirs, *args))
-
-
-ARM = "example-robot-data/xarm7"
-NAMES = {"rnea": "rnea", "aba": "aba", "crba": "crba", "h": "nonlinear_effects", "M": "crba"}
-ARGUMENTS = {"rnea": 3, "aba": 3, "crba": 1, "h": 2, "M": 1}
-
-
-def of_arm(_: tw.Model) -> Iterator[Call]:
-    """An arm of seven joints, for packages that take no floating base: dynibo."""
+    """Yield calls for an arm of seven joints, which dynibo takes; of floating bases it takes few."""
     from twistwrench.loading.catalogue import find
 
     arm = tw.load(ARM)
@@ -266,7 +245,7 @@ print(1e6 * (time.perf_counter() - start))
 
 
 def first_calls(model: tw.Model) -> Iterator[Row]:
-    """The first call in a process: without machine code on disk, and with it."""
+    """Yield the time of the first call in a process: without machine code on disk, and with it."""
     import tempfile
 
     with tempfile.TemporaryDirectory() as folder:

@@ -110,7 +110,8 @@ def key_of(line: Line, scalar: str, width: int) -> str:
 
     versions = sys.version, llvmlite.__version__, llvm.llvm_version_info, objects.own_source()
     processor = llvm.get_default_triple(), llvm.get_host_cpu_name(), sorted(llvm.get_host_cpu_features().items())
-    text = repr((versions, processor, scalar, width, register_bits(), [*line.nodes], [*line.inputs.items()], [*line.outputs.items()]))
+    operations = [*line.nodes], [*line.inputs.items()], [*line.outputs.items()]
+    text = repr((versions, processor, scalar, width, register_bits(), operations))
     return sha256(text.encode()).hexdigest()
 
 
@@ -293,7 +294,7 @@ class Pieces:
         constants = [f"%V {one}" for one in self.text.constants] or ["%V undef"]
         table = f"@constants = internal constant [{len(constants)} x %V] [{', '.join(constants)}]"
         slots = max(1, self.slots)
-        together = 2 if 1 < self.width and 2 * slots * self.width * self.text.bytes <= MOST_KEPT else 1
+        together = 2 if self.width > 1 and 2 * slots * self.width * self.text.bytes <= MOST_KEPT else 1
         loop = "".join([LOOP, *calls, END]).format(
             width=self.width, slots=slots, together=together, all=together * slots, k=len(pieces) - 1, end=len(pieces)
         )

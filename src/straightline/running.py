@@ -11,7 +11,8 @@ product each factor times the bound of the other, and each adds its own rounding
 
 E is kept as own |x̂| + c y + rest, where `own` and `rest` are constants, and computed where it is needed:
 
-- What has only `own` is right to so many roundings: arguments (0), sines (4), products of such numbers. It costs nothing.
+- What has only `own` is right to so many roundings: arguments (0), sines (4), products of such numbers. That costs
+  nothing.
 - The sum of a rotation, c a + s b, takes one operation for each product, |c| G + |s| H, where G is the bound of a and
   what is to be added for each factor |c|: c a and s a share it.
 - `rest` is what underflow can take, and is added where a product would enlarge it.
@@ -100,7 +101,7 @@ class Running:
         self.dtype, self.fma, self.tape = dtype, fma, Tape()
         self.u = Fraction(1, 2 ** (info.nmant + 1))
         self.least = Fraction(float(info.smallest_subnormal))
-        self.tiny = self.least / self.u**2 * 2**8  # more than what underflow takes, and so much that no bound underflows
+        self.tiny = self.least / self.u**2 * 2**8  # more than underflow takes, and so much that no bound underflows
         self.most = int(1 / (2**10 * self.u))  # roundings behind a bound: (1 + u)ⁿ is then less than 1 + 2⁻⁹
         self.index: list[int] = []  # of each operation on the tape
         self.value: list[Any] = []  # its result; of a constant, what the number type holds
@@ -249,7 +250,7 @@ class Running:
     def alarmed(self, alarm: Number, bounds: Sequence[Any]) -> Number:
         """Write an alarm that is not a number either where one of the bounds so far is infinite, or none."""
         total = sum((x for x in bounds if isinstance(x, Number)), NOTHING)
-        return alarm + self.tape.apply("mul", NOTHING, total)
+        return self.tape.number(alarm + self.tape.apply("mul", NOTHING, total))
 
     def size(self, k: int) -> Any:
         """Write |x̂|."""

@@ -169,7 +169,7 @@ class DoubleDoubleProgram(DigitsProgram):
         """Return what runs the line for states with these arguments, of which some are pairs; rewritten once."""
         if (names, low) not in self._codes:
             line, backend = self.program._code(names).line, self.program.backend
-            pairs = double_double(line, low=low, plain=(ALARM,), fma=backend == "llvm", bound=self.bound)
+            pairs = double_double(line, low=low, plain=(ALARM,), fma=backend == "llvm", bound=bool(self.bound))
             self._codes[names, low] = BackEnd(pairs, DOUBLE, backend)
         return self._codes[names, low]
 
