@@ -86,15 +86,19 @@ def keep(key: str, content: bytes) -> None:
 
 def _make_room(path: str) -> None:
     """Remove what was not used for longest."""
+    files = list[tuple[float, int, str]]()
     with suppress(OSError):
-        files = [(found.st_mtime, found.st_size, entry.path) for entry in os.scandir(path) if (found := entry.stat())]
-        left = sum(size for _, size, _ in files)
-        for _, size, name in sorted(files):
-            if left <= MOST:
-                break
-            with suppress(OSError):
-                os.remove(name)
-                left -= size
+        for name in os.listdir(path):
+            with suppress(OSError):  # another process has removed it
+                found = os.stat(os.path.join(path, name))
+                files.append((found.st_mtime, found.st_size, name))
+    left = sum(size for _, size, _ in files)
+    for _, size, name in sorted(files):
+        if left <= MOST:
+            break
+        with suppress(OSError):
+            os.remove(os.path.join(path, name))
+            left -= size
 
 
 def _checksum(key: str, content: bytes) -> bytes:

@@ -42,6 +42,8 @@ MARGIN = Fraction(1, 16)  # of a number of roundings: more than the products of 
 PER_CALL = 4  # no operation of a bound rounds more than twice, and 1/(1 − u) is less than (1 + u)²
 LARGER = 1 + Fraction(1, 2**8)  # more than (1 + u)ⁿ for all n that occur
 
+RULES = ("input", "const", "neg", "add", "sub", "mul", "div", "sqrt", "sin", "cos")
+
 Term = tuple[Any, Any]
 """Two factors that are not negative: constants or numbers."""
 
@@ -112,16 +114,11 @@ class Running:
         operation, *rest = node
         self.index.append(self.tape.places[renumbered(node, self.index)])
         self.value.append(self.rounded(rest[0]) if operation == "const" else Number(self.tape, self.index[-1]))
-        rule = getattr(self, operation, None)
-        if rule is None:
+        if operation not in RULES:
             raise NotImplementedError(f"a bound of {operation!r}")
-        self.off.append(rule(*rest))
+        self.off.append(Off() if operation == "input" else getattr(self, operation)(*rest))  # an argument is as it is
 
     # ---------------------------------------------------------------- the rules
-
-    def input(self, _: Any) -> Off:
-        """Return nothing: an argument is what it is."""
-        return Off()
 
     def const(self, c: Fraction) -> Off:
         """Return what a constant is rounded by."""
