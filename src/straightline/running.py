@@ -57,11 +57,6 @@ class Off(NamedTuple):
     n: int = 0
     paid: bool = False  # whether c y is not less than what underflow can take from an operation
 
-    @property
-    def relative(self) -> bool:
-        """Whether it is a number of roundings of x̂ itself, and nothing else."""
-        return self.term is None and not self.rest
-
 
 @without_garbage()
 def with_running_bound(line: Line, dtype: np.dtype[Any], *, alarm: str | None = None, fma: bool) -> Line:
@@ -140,17 +135,17 @@ class Running:
 
     def mul(self, i: int, j: int) -> Off:
         """|âb̂ − ab| ≤ |â| e_b + (|b̂| + e_b) e_a."""
-        if not self.off[i].relative or (self.off[j].relative and isinstance(self.value[j], Fraction)):
+        if not self.few(i) or (self.few(j) and isinstance(self.value[j], Fraction)):
             i, j = j, i
         a, b = self.off[i], self.off[j]
-        if not a.relative:
+        if not self.few(i):
             reach = self.sum_of(self.size(j), (2 * self.u, self.factor(j)))  # |b̂| + e_b
             terms = (self.size(i), self.factor(j, 1 + MARGIN)), (reach, self.factor(i))
             return self.collected(NOTHING, terms, NOTHING, self.n(i) + self.n(j) + PER_CALL, False)
         c = self.value[i]
         exact = isinstance(c, Fraction) and is_power_of_two(abs(c))
         rest = NOTHING if exact and abs(c) >= 1 else self.tiny
-        if b.relative:
+        if self.few(j):
             own = (a.own + b.own + self.u * a.own * b.own) * (1 + self.u)
             return Off(self.above(own if exact else own + 1), rest=rest)
         again = NOTHING if exact else ceil(a.own) + 1 + MARGIN  # e_a and the product's own rounding, times |b̂|
@@ -159,9 +154,9 @@ class Running:
     def div(self, i: int, j: int) -> Off:
         """|â/b̂ − a/b| ≤ (e_a + |â/b̂| e_b) / (|b̂| − e_b)."""
         a, b = self.off[i], self.off[j]
-        if b.relative:  # |b| ≥ |b̂| (1 − own u)
-            own = self.above((b.own + (a.own if a.relative else 0) + 1) * (1 + MARGIN))
-            if a.relative:
+        if self.few(j):  # |b| ≥ |b̂| (1 − own u)
+            own = self.above((b.own + (a.own if self.few(i) else 0) + 1) * (1 + MARGIN))
+            if self.few(i):
                 return Off(own, rest=self.tiny)
             return Off(own, (ONE, self.factor(i) / self.size(j)), self.tiny, self.n(i) + PER_CALL + 2 * ceil(b.own))
         off = self.factor(j)
@@ -173,7 +168,7 @@ class Running:
     def sqrt(self, i: int) -> Off:
         """|√â − √a| ≤ e_a / √â."""
         a = self.off[i]
-        if a.relative:
+        if self.few(i):
             return Off(self.above(a.own + 1 + MARGIN))
         root = self.tape.apply("abs", Number(self.tape, self.index[-1]))
         return Off(1 + MARGIN, (ONE, self.factor(i) / root), self.tiny, self.n(i) + 2 * PER_CALL)
@@ -234,6 +229,11 @@ class Running:
             terms.append((self.above(off.own + more), size))
         total = self.sum_of(self.above(rest) if rest else None, *terms)
         return total if self.n(k) else total * LARGER
+
+    def few(self, k: int) -> bool:
+        """Return whether a number is off by some roundings of itself, and nothing else."""
+        off = self.off[k]
+        return off.term is None and not off.rest and off.own <= self.most / 4
 
     def n(self, k: int) -> int:
         """Return how many roundings stand behind `factor`."""

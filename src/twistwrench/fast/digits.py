@@ -23,7 +23,7 @@ from ..arrays import Array
 from ..errors import ShapeError
 from ..newton_euler_3d import as_mpmath
 from .program import Program
-from .quantity import by_the_textbook
+from .quantity import by_the_textbook, shapes
 from .recording import ALARM
 
 __all__ = ["NUMBERS", "RUNNING", "WIDE", "DigitsProgram", "wide_type", "with_digits"]
@@ -246,6 +246,7 @@ class RunningProgram(DigitsProgram):
         super().__init__(program)
         self.dtype, self.closer = program.dtype, BoundedProgram(program)
         self._one_state: Callable[..., Any] | None = None
+        self._of_one = [shapes(self.model)[name] for name in program._plain]
 
     @property
     def operations(self) -> Counter[str]:
@@ -254,7 +255,7 @@ class RunningProgram(DigitsProgram):
 
     def __call__(self, *args: Any, **named: Any) -> Any:
         """Return the quantities, and the bound of each entry."""
-        if not named and [getattr(x, "shape", None) for x in args] == self.program._one:
+        if not named and [getattr(x, "shape", None) for x in args] == self._of_one:
             if self._one_state is None:
                 self._one_state = self._code(self.program._plain).one_state(False)
             found = self._one_state(*args) if self._one_state else None
