@@ -201,7 +201,9 @@ def of_peers(model: tw.Model) -> Iterator[Call]:
     found = list(installed(model, str(find("example-robot-data/go2").path)))
     for quantity in dict.fromkeys(peer.quantity for peer in found):
         for n in (1, 1000):
-            there = [x for x in found if x.quantity == quantity and x.name != "tw.compile" and (n == 1 or x.batched)]
+            there = [
+                x for x in found if x.quantity == quantity and not x.name.endswith(OTHERS) and (n == 1 or x.batched)
+            ]
             if not there:
                 continue
             base = _of_fast(NAMES[quantity], model, *s.first(n)[: ARGUMENTS[quantity]])
@@ -211,6 +213,7 @@ def of_peers(model: tw.Model) -> Iterator[Call]:
                 yield Call(f"… {peer.name}", peer.prepare(few), n)
 
 
+OTHERS = "tw.compile", "(2)"  # what is in the table already, and what takes two threads
 ARM = "example-robot-data/xarm7"
 NAMES = {"rnea": "rnea", "aba": "aba", "crba": "crba", "h": "nonlinear_effects", "M": "crba"}
 ARGUMENTS = {"rnea": 3, "aba": 3, "crba": 1, "h": 2, "M": 1}
@@ -223,14 +226,14 @@ def of_arm(_: tw.Model) -> Iterator[Call]:
     arm = tw.load(ARM)
     s = random_states(arm, LOOP)
     q, v, a = s.first(1)
-    there = _of_dynibo(str(find(ARM).path))
-    for name, args, theirs in (
-        ("rnea", (q, v, a), lambda: there.inverse_dynamics(q, v, a)),
-        ("aba", (q, v, a), lambda: there.forward_dynamics(q, v, a)),
-        ("crba", (q,), lambda: there.mass_matrix(q)),
+    urdf = str(find(ARM).path)
+    for name, theirs, args in (
+        ("rnea", "inverse_dynamics", (q, v, a)),
+        ("aba", "forward_dynamics", (q, v, a)),
+        ("crba", "mass_matrix", (q,)),
     ):
         yield Call(f"`fast.{name}`, an arm", _of_fast(name, arm, *args), 1, _pin(name, arm, s), True)
-        yield Call("… dynibo", lambda theirs=theirs: theirs())
+        yield Call("… dynibo", _of_dynibo(urdf, theirs, *args))
 
 
 FIRST = """

@@ -24,13 +24,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import chain
 from math import ceil
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from .double_double import BOUND
-from .line import Line, renumbered
+from .line import Line, needed, renumbered
 from .number import Number, Tape, is_power_of_two, without_garbage
 from .sine import SINE_ROUNDINGS, known_sines
 
@@ -76,8 +77,10 @@ def with_running_bound(line: Line, dtype: np.dtype[Any], *, alarm: str | None = 
         compared with one that is known to be right.
     """
     running = Running(dtype, fma)
-    for node in line.nodes:
-        running.compute(node)
+    wanted = [entries for name, (_, entries) in line.outputs.items() if name != alarm]
+    bounded = {*needed(line.nodes, chain(*wanted))}
+    for k, node in enumerate(line.nodes):
+        running.compute(node, k in bounded)
     results, bounds = dict[str, Any](), list[Any]()
     for name, (shape, entries) in line.outputs.items():
         columns = {name: [Number(running.tape, running.index[k]) for k in entries]}
@@ -104,14 +107,15 @@ class Running:
         self.value: list[Any] = []  # its result; of a constant, what the number type holds
         self.off: list[Off] = []
 
-    def compute(self, node: tuple[Any, ...]) -> None:
-        """Write an operation as it stands, and how far its result can be off."""
+    def compute(self, node: tuple[Any, ...], bounded: bool) -> None:
+        """Write an operation as it stands, and how far its result can be off, if a result with a bound needs it."""
         operation, *rest = node
         self.index.append(self.tape.places[renumbered(node, self.index)])
         self.value.append(self.rounded(rest[0]) if operation == "const" else Number(self.tape, self.index[-1]))
-        if operation not in RULES:
+        if bounded and operation not in RULES:
             raise NotImplementedError(f"a bound of {operation!r}")
-        self.off.append(Off() if operation == "input" else getattr(self, operation)(*rest))  # an argument is as it is
+        own = bounded and operation != "input"  # an argument is what it is
+        self.off.append(getattr(self, operation)(*rest) if own else Off())
 
     # ---------------------------------------------------------------- the rules
 
