@@ -241,14 +241,14 @@ import sys, time
 import numpy as np, twistwrench as tw
 model = tw.load(sys.argv[1])
 q, v = model.neutral(), np.zeros(model.nv)
-start = time.perf_counter()
+start = time.process_time()
 getattr(tw.fast, sys.argv[2])(model, *(q, v, v)[: int(sys.argv[3])])
-print(1e6 * (time.perf_counter() - start))
+print(1e6 * (time.process_time() - start))
 """
 
 
 def first_calls(model: tw.Model) -> Iterator[Row]:
-    """Yield the time of the first call in a process: without machine code on disk, and with it."""
+    """Yield the processor time of the first call in a process: without machine code on disk, and with it."""
     import tempfile
 
     with tempfile.TemporaryDirectory() as folder:
