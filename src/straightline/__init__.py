@@ -41,6 +41,13 @@ With 32 digits, as a pair of doubles, and how far that can be off at most:
 >>> sorted(exact), bool((exact["y0.bound"] < 1e-28).all())
 (['y0', 'y0.bound', 'y0.lo', 'y1', 'y1.bound', 'y1.lo'], True)
 
+Or in doubles, where the bound goes along beside each number:
+
+>>> running = with_running_bound(line, np.dtype(np.float64), fma=False)
+>>> found = BackEnd(running, np.dtype(np.float64), "numpy").results({"x": x[0, :1], "angle": angle[:1]}, (1,))
+>>> sorted(found), bool((found["y0.bound"] < 1e-14).all())
+(['y0', 'y0.bound', 'y1', 'y1.bound'], True)
+
 Each file imports only from those above it in this table, and none from anything but NumPy and, where it is there,
 llvmlite.
 
@@ -73,6 +80,7 @@ from .double_double import DoubleDouble, double_double
 from .line import Line
 from .number import Number, Tape, numbers
 from .recorder import straight_line
+from .running import with_running_bound
 from .source import c_source, python_source
 
 __all__ = [
@@ -86,4 +94,5 @@ __all__ = [
     "numbers",
     "python_source",
     "straight_line",
+    "with_running_bound",
 ]
