@@ -75,8 +75,18 @@ def tables() -> dict[str, str]:
             for name, ends in RANGES.items()
             for b in ("1", "100")
         ),
+        "calls": calls(),
         "peers": table((peer(r), f"{int(r['batch']):,}", ratio(r)) for r in rows("peers")),
     }
+
+
+def calls() -> str:
+    """Return the ways to call, one a line: … stands for what a line above it has."""
+    lines = ["| how it is called | a state | × | Pinocchio | ours / its |", "|---|---|---|---|---|"]
+    for r in rows("calls"):
+        theirs = f"{number(r['us_pin'])} µs | {number(r['ratio_pin'])}" if r["us_pin"] else "|"
+        lines.append(f"| {r['how']} | {number(r['us'])} µs | {number(r['ratio'])} | {theirs} |")
+    return "\n".join(lines)
 
 
 def peer(r: Row) -> str:
@@ -89,6 +99,28 @@ WAYS = {"fast": "tw.fast", "textbook": "tw"}
 
 
 CHINESE = {
+    "how it is called": "怎样调用",
+    "a state": "每个状态",
+    "ours / its": "本包 / Pinocchio",
+    "a tuple": "元组",
+    "a list": "列表",
+    "a set": "集合",
+    "left out": "不给",
+    "three arrays": "三个数组",
+    "by name": "按名称",
+    "one batch axis, of length 1": "一个长度为 1 的批量维",
+    "every second entry of an array": "数组中隔一项取一项",
+    "lists": "列表",
+    "the textbook": "教科书写法",
+    "in a loop": "逐个循环",
+    "in the air": "悬空",
+    "state in a call": "个状态一次调用",
+    "states in a call": "个状态一次调用",
+    "all feet": "所有的脚",
+    "joints in a chain, a joint": "个关节的链，每个关节",
+    "an arm": "机械臂",
+    "compiled": "编译",
+    "machine code on disk": "机器码已在磁盘上",
     "function": "函数",
     "number type": "数值类型",
     "in a call": "一次调用",

@@ -39,6 +39,7 @@ def main() -> None:
     rest, still = GO2.standing(), np.zeros(18)
     hold = np.r_[np.zeros(6), tw.static_equilibrium(GO2, rest).tau]
 
+    running, closer = (tw.compile(GO2, "rnea", bound=bound) for bound in ("running", True))
     floats = replace(GO2, gravity=np.zeros(3))
     tumbles = rest, np.random.default_rng(0).normal(size=18)
 
@@ -49,6 +50,8 @@ def main() -> None:
     found = {
         "tw.fast.rnea": quickest(lambda: tw.fast.rnea(GO2, *states)),
         "tw.fast.rnea, each of 1200 states": quickest(lambda: tw.fast.rnea(GO2, *many)) / 1200,
+        'bound="running"': quickest(lambda: running(*states)),
+        "bound=True": quickest(lambda: closer(*states)),
         "tw.contact_inverse_dynamics": quickest(lambda: tw.contact_inverse_dynamics(GO2, *states, stands)),
         "tw.friction_inverse_dynamics": quickest(lambda: tw.friction_inverse_dynamics(GO2, *states, stands)),
         "tw.stance_margins": quickest(lambda: tw.stance_margins(GO2, rest, FEET)),

@@ -41,6 +41,13 @@ With 32 digits, as a pair of doubles, and how far that can be off at most:
 >>> sorted(exact), bool((exact["y0.bound"] < 1e-28).all())
 (['y0', 'y0.bound', 'y0.lo', 'y1', 'y1.bound', 'y1.lo'], True)
 
+Or in doubles, where the bound goes along beside each number:
+
+>>> running = with_running_bound(line, np.dtype(np.float64), fma=False)
+>>> found = BackEnd(running, np.dtype(np.float64), "numpy").results({"x": x[0, :1], "angle": angle[:1]}, (1,))
+>>> sorted(found), bool((found["y0.bound"] < 1e-14).all())
+(['y0', 'y0.bound', 'y1', 'y1.bound'], True)
+
 Each file imports only from those above it in this table, and none from anything but NumPy and, where it is there,
 llvmlite.
 
@@ -51,10 +58,12 @@ number         `Number`, which only remembers what is done to it, and the `Tape`
 line           `Line`: the operations that a question needs, one after the other
 sine           sin and cos as arithmetic, for many angles at once
 instructions   LLVM's language: arithmetic, and the way in and out of memory
+objects        machine code on disk, for the next process
 llvm           machine code, by LLVM
 source         a line as text: Python and C, with names and comments if the tape took notes
 pairs          arithmetic with pairs of doubles, sin and cos
 double_double  a line rewritten into pairs, with bounds
+running        a line with a bound beside each number, in the same numbers
 packs          operations that NumPy can do in one call
 registers      NumPy, for every number type
 fingerprints   what is the same number for all arguments, computed once
@@ -71,6 +80,7 @@ from .double_double import DoubleDouble, double_double
 from .line import Line
 from .number import Number, Tape, numbers
 from .recorder import straight_line
+from .running import with_running_bound
 from .source import c_source, python_source
 
 __all__ = [
@@ -84,4 +94,5 @@ __all__ = [
     "numbers",
     "python_source",
     "straight_line",
+    "with_running_bound",
 ]

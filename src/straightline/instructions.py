@@ -9,7 +9,10 @@ import numpy as np
 
 __all__ = ["InstructionText"]
 
-INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "abs": "fabs", "round": "roundeven"}
+INTRINSICS = {"sqrt": "sqrt", "fma": "fma", "round": "roundeven"}
+
+ALL_BUT_THE_SIGN = {"double": 0x7FFFFFFFFFFFFFFF, "float": 0x7FFFFFFFE0000000}
+"""Bits of a number, as LLVM writes them: those of the double with the same value."""
 
 
 class InstructionText:
@@ -36,10 +39,13 @@ class InstructionText:
     def constant(self, x: Any) -> str:
         """Write the load of a constant, rounded to the number type."""
         rounded = float(x) if self.scalar == "double" else float(np.float32(float(x)))
-        bits = f"0x{struct.unpack('<Q', struct.pack('<d', rounded))[0]:016X}"
-        same = bits if self.width == 1 else f"<{', '.join([f'{self.scalar} {bits}'] * self.width)}>"
+        return self.bits("%V", struct.unpack("<Q", struct.pack("<d", rounded))[0])
+
+    def bits(self, kind: str, bits: int) -> str:
+        """Write the load of a constant of these bits, of a double."""
+        same = f"0x{bits:016X}" if self.width == 1 else f"<{', '.join([f'{self.scalar} 0x{bits:016X}'] * self.width)}>"
         place = self.constants.setdefault(same, len(self.constants))
-        return self.new(f"load %V, ptr {self.new(f'getelementptr %V, ptr %constants, i64 {place}')}")
+        return self.new(f"load {kind}, ptr {self.new(f'getelementptr %V, ptr %constants, i64 {place}')}")
 
     def operate(self, operation: str, *operands: str) -> str:
         """Write an operation of a line."""
@@ -47,6 +53,11 @@ class InstructionText:
             return self.new(f"f{operation} %V {operands[0]}, {operands[1]}")
         if operation == "neg":
             return self.new(f"fsub %V {self.constant(-0.0)}, {operands[0]}")
+        if operation == "abs":  # LLVM's own would load the mask in two instructions
+            whole = f"i{8 * self.bytes}" if self.width == 1 else f"<{self.width} x i{8 * self.bytes}>"
+            mask = self.bits(whole, ALL_BUT_THE_SIGN[self.scalar])
+            same = self.new(f"bitcast %V {operands[0]} to {whole}")
+            return self.new(f"bitcast {whole} {self.new(f'and {whole} {same}, {mask}')} to %V")
         kind = ("" if self.width == 1 else f"v{self.width}") + f"f{8 * self.bytes}"
         function = f"%V @llvm.{INTRINSICS[operation]}.{kind}"
         self.declared.add(f"declare {function}({', '.join(['%V'] * len(operands))})")

@@ -8,12 +8,14 @@ what the operations say, to the last bit.
 from __future__ import annotations
 
 import ctypes
+import sys
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
 
+from . import objects
 from .instructions import InstructionText
 from .line import LEAVES, Line
 from .number import Array, without_garbage
@@ -28,6 +30,13 @@ PIECE = 800  # instructions that are compiled at once
 
 LONG = 750_000
 """Letters of a text for which LLVM assigns registers in its quickest way: what comes out is a few per cent slower."""
+
+MOST_KEPT = 2**17
+"""Bytes of values in memory up to which the states of two registers take turns in each piece: its instructions are then
+fetched once for both, which takes as long as half of them."""
+
+MAX_ENGINES = 32  # that are remembered in case that the same line is made again
+ENGINES: dict[str, Any] = {}  # by the name of the line, the last used at the end
 
 Group = tuple[int, int, Sequence[int]]
 """Results that are stored together: their array, the place of the first one, and their nodes."""
@@ -66,7 +75,7 @@ class MachineCode:
     """A line as machine code, `width` states at once, a power of two: a function of a table and a number of states."""
 
     def __init__(self, line: Line, dtype: np.dtype[Any], width: int) -> None:
-        self._engine = engine_of(written(line, NATIVE[dtype], width))  # keeps the code alive
+        self._engine = engine_for(line, NATIVE[dtype], width)  # keeps the code alive
         self.address: int = self._engine.get_function_address("program")
         self._call = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int64)(self.address)
 
@@ -76,20 +85,69 @@ class MachineCode:
         self._call(table.ctypes.data, len(arrays[0]))
 
 
-@lru_cache(maxsize=32)  # the same line, made again, has the same text
+def engine_for(line: Line, scalar: str, width: int) -> Any:
+    """Return what holds the machine code of a line: from this process, from the disk (`objects`), or compiled now."""
+    key = key_of(line, scalar, width)
+    engine = ENGINES.pop(key, None)
+    if engine is None:
+        code = objects.fetch(key)
+        if code is None:
+            code = compiled(written(line, scalar, width))
+            objects.keep(key, code)
+        engine = loaded(code)
+    ENGINES[key] = engine
+    for forgotten in [*ENGINES][:-MAX_ENGINES]:
+        ENGINES.pop(forgotten, None)
+    return engine
+
+
+def key_of(line: Line, scalar: str, width: int) -> str:
+    """Return a name for all that the machine code of a line depends on."""
+    from hashlib import sha256
+
+    import llvmlite
+    import llvmlite.binding as llvm
+
+    versions = sys.version, llvmlite.__version__, llvm.llvm_version_info, objects.own_source()
+    processor = llvm.get_default_triple(), llvm.get_host_cpu_name(), sorted(llvm.get_host_cpu_features().items())
+    operations = [*line.nodes], [*line.inputs.items()], [*line.outputs.items()]
+    text = repr((versions, processor, scalar, width, register_bits(), operations))
+    return sha256(text.encode()).hexdigest()
+
+
+@lru_cache(maxsize=32)  # the same function, made again, has the same text
 def engine_of(text: str) -> Any:
     """Return what holds the machine code of a text in LLVM's language, for this processor."""
+    return loaded(compiled(text))
+
+
+def compiled(text: str) -> bytes:
+    """Return a text in LLVM's language as an object file for this processor."""
+    import llvmlite.binding as llvm
+
+    code: bytes = host(0 if len(text) > LONG else 1).emit_object(llvm.parse_assembly(text))
+    return code
+
+
+def loaded(code: bytes) -> Any:
+    """Return what holds the machine code of an object file."""
+    import llvmlite.binding as llvm
+
+    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), host(1))
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    return engine
+
+
+def host(effort: int) -> Any:
+    """Return LLVM's description of this processor."""
     import llvmlite.binding as llvm
 
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
     features = llvm.get_host_cpu_features().flatten()
-    host = llvm.Target.from_default_triple().create_target_machine(
-        opt=0 if len(text) > LONG else 1, cpu=llvm.get_host_cpu_name(), features=features
-    )
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly(text), host)
-    engine.finalize_object()
-    return engine
+    name = llvm.get_host_cpu_name()
+    return llvm.Target.from_default_triple().create_target_machine(opt=effort, cpu=name, features=features, jit=True)
 
 
 @without_garbage()
@@ -115,7 +173,7 @@ class Pieces:
 
     When all registers are taken, the value whose next use is farthest goes to memory (Bélády), and is loaded when it is
     needed again. LLVM would find out itself, in twice the time. In `turns` is what is to be written, after the nodes
-    that it needs: each node to compute, in the end each group of results, in the order of memory.
+    that it needs: each node to compute, each group of results that lie next to each other as soon as they are there.
     """
 
     def __init__(self, line: Line, scalar: str, width: int) -> None:
@@ -137,13 +195,16 @@ class Pieces:
         self.due = {k: turns[-1] for k, turns in self.uses.items()}
 
     def _turns(self) -> Iterator[tuple[set[int], int, Group | None]]:
+        groups = list[Group]()
+        for array, (_, entries) in enumerate(self.line.outputs.values(), len(self.line.inputs)):
+            groups += [(array, k, entries[k : k + self.width]) for k in range(0, len(entries), self.width)]
+        groups.sort(key=lambda group: -max(group[2]))  # the last one is there first
         for k, node in enumerate(self.line.nodes):
             if node[0] not in LEAVES:
                 yield {*node[1:]}, k, None
-        for array, (_, entries) in enumerate(self.line.outputs.values(), len(self.line.inputs)):
-            for start in range(0, len(entries), self.width):
-                group = entries[start : start + self.width]
-                yield {*group}, 0, (array, start, group)
+            while groups and max(groups[-1][2]) <= k:
+                group = groups.pop()
+                yield {*group[2]}, 0, group
 
     def compute(self, k: int) -> None:
         """Write the operation of a node."""
@@ -225,14 +286,18 @@ class Pieces:
         """Return all pieces, and the loop that calls them; its last turn ends with the last state."""
         declared = sorted(set().union(*(text.declared for text in self.finished)))
         arguments = "ptr %table, i64 %state, ptr %kept, ptr %constants"
-        pieces = []
+        pieces, calls = [], []
         for k, text in enumerate(self.finished):
             head = f"define internal void @piece{k}({arguments}) optnone noinline {{"
             pieces.append("\n  ".join([head, *text.lines, "ret void\n}"]))
-        calls = "\n  ".join(f"call void @piece{k}({arguments})" for k in range(len(pieces)))
+            calls.append(CALL.format(k=k, following=k + 1, before=f"call{k - 1}" if k else "turn"))
         constants = [f"%V {one}" for one in self.text.constants] or ["%V undef"]
         table = f"@constants = internal constant [{len(constants)} x %V] [{', '.join(constants)}]"
-        loop = LOOP.format(width=self.width, slots=max(1, self.slots), calls=calls)
+        slots = max(1, self.slots)
+        together = 2 if self.width > 1 and 2 * slots * self.width * self.text.bytes <= MOST_KEPT else 1
+        loop = "".join([LOOP, *calls, END]).format(
+            width=self.width, slots=slots, together=together, all=together * slots, k=len(pieces) - 1, end=len(pieces)
+        )
         vector = f"<{self.width} x {self.text.scalar}>" if self.width > 1 else self.text.scalar
         return "\n".join([f"%V = type {vector}", *declared, table, *pieces, loop])
 
@@ -240,18 +305,34 @@ class Pieces:
 LOOP = """
 define void @program(ptr %table, i64 %count) {{
 start:
-  %kept = alloca %V, i64 {slots}, align 64
+  %all = alloca %V, i64 {all}, align 64
   %constants = getelementptr i8, ptr @constants, i64 0
   %last = sub i64 %count, {width}
   br label %turn
 turn:
-  %state = phi i64 [0, %start], [%next, %turn]
-  {calls}
-  %following = add i64 %state, {width}
-  %beyond = icmp sgt i64 %following, %last
-  %next = select i1 %beyond, i64 %last, i64 %following
-  %more = icmp slt i64 %following, %count
-  br i1 %more, label %turn, label %end
+  %first = phi i64 [0, %start], [%following{k}, %call{end}]
+  br label %call0
+"""
+
+CALL = """call{k}:
+  %place{k} = phi i64 [0, %{before}], [%next{k}, %call{k}]
+  %done{k} = mul i64 %place{k}, {{width}}
+  %wanted{k} = add i64 %first, %done{k}
+  %beyond{k} = icmp sgt i64 %wanted{k}, %last
+  %state{k} = select i1 %beyond{k}, i64 %last, i64 %wanted{k}
+  %start{k} = mul i64 %place{k}, {{slots}}
+  %kept{k} = getelementptr %V, ptr %all, i64 %start{k}
+  call void @piece{k}(ptr %table, i64 %state{k}, ptr %kept{k}, ptr %constants)
+  %next{k} = add i64 %place{k}, 1
+  %following{k} = add i64 %wanted{k}, {{width}}
+  %left{k} = icmp slt i64 %following{k}, %count
+  %room{k} = icmp slt i64 %next{k}, {{together}}
+  %again{k} = and i1 %left{k}, %room{k}
+  br i1 %again{k}, label %call{k}, label %call{following}
+"""
+
+END = """call{end}:
+  br i1 %left{k}, label %turn, label %end
 end:
   ret void
 }}

@@ -600,7 +600,7 @@ def test_the_code_of_the_page_runs(language):
     path = page("trade", language)
     text = path.read_text(encoding="utf-8")
     code = blocks(text, 0, len(text))
-    assert len(code) == 1
+    assert len(code) == 2
     assert run(path, code)["best"] == 1e-8
     assert re.findall(r"^```\w+\n.*?^```", text, re.MULTILINE | re.DOTALL) == re.findall(
         r"^```\w+\n.*?^```", page("trade").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
@@ -17,21 +17,24 @@ from straightline.backend import BackEnd
 from straightline.double_double import BOUND, LO, OWN, DoubleDouble, double_double
 from straightline.llvm import NATIVE
 from straightline.pairs import two_sum
+from straightline.running import with_running_bound
 
 from ..arrays import Array
 from ..errors import ShapeError
 from ..newton_euler_3d import as_mpmath
 from .program import Program
-from .quantity import by_the_textbook
+from .quantity import by_the_textbook, shapes
 from .recording import ALARM
 
-__all__ = ["NUMBERS", "WIDE", "DigitsProgram", "wide_type", "with_digits"]
+__all__ = ["NUMBERS", "RUNNING", "WIDE", "DigitsProgram", "wide_type", "with_digits"]
 
 PAIRS = "double-double"
 WIDE = {"quad": ("numpy_quaddtype", 'pip install "twistwrench[quad]"'), "mpmath": ("mpmath", "pip install mpmath")}
 """Number types of other packages: the package, and what installs it."""
 
 NUMBERS = (PAIRS, *WIDE)  # number types that are not NumPy's, by name
+
+RUNNING = "running"  # the bound that is carried along in the program's own numbers
 
 DOUBLE = np.dtype(np.float64)
 VALUE = ".value"
@@ -41,7 +44,7 @@ class DigitsProgram(ABC):
     """A program whose line is run in other numbers than its own, and which is called as that is."""
 
     number: str | None = None
-    bound = False
+    bound: bool | str = False
     expected = "sizes whose products are numbers"
 
     def __init__(self, program: Program) -> None:
@@ -100,7 +103,8 @@ class DigitsProgram(ABC):
 
     def __repr__(self) -> str:
         text = repr(self.program).replace("float64", self.number or "float64")
-        return f"{text[:-1]}, bound>" if self.bound else text
+        kind = "running bound" if self.bound == RUNNING else "bound"
+        return f"{text[:-1]}, {kind}>" if self.bound else text
 
 
 class WideProgram(DigitsProgram):
@@ -165,7 +169,7 @@ class DoubleDoubleProgram(DigitsProgram):
         """Return what runs the line for states with these arguments, of which some are pairs; rewritten once."""
         if (names, low) not in self._codes:
             line, backend = self.program._code(names).line, self.program.backend
-            pairs = double_double(line, low=low, plain=(ALARM,), fma=backend == "llvm", bound=self.bound)
+            pairs = double_double(line, low=low, plain=(ALARM,), fma=backend == "llvm", bound=bool(self.bound))
             self._codes[names, low] = BackEnd(pairs, DOUBLE, backend)
         return self._codes[names, low]
 
@@ -229,14 +233,78 @@ class BoundedProgram(DoubleDoubleProgram):
         return value, np.nextafter(bound, self.dtype.type("inf"))
 
 
-def with_digits(program: Program, number: str | None, bound: bool) -> Program | DigitsProgram:
+class RunningProgram(DigitsProgram):
+    """A program in float32 or float64 that carries a bound along beside each number: ``bound="running"``.
+
+    See `straightline.running`. States of which that knows nothing, and those that the program leaves to the textbook,
+    have the bounds of `BoundedProgram`.
+    """
+
+    bound = RUNNING
+
+    def __init__(self, program: Program) -> None:
+        super().__init__(program)
+        self.dtype, self.closer = program.dtype, BoundedProgram(program)
+        self._one_state: Callable[..., Any] | None = None
+        self._of_one = [shapes(self.model)[name] for name in program._plain]
+
+    @property
+    def operations(self) -> Counter[str]:
+        """How many operations one state takes, with its bound, by kind."""
+        return self._code(self.program._plain).line.without(ALARM).operations
+
+    def __call__(self, *args: Any, **named: Any) -> Any:
+        """Return the quantities, and the bound of each entry."""
+        if not named and [getattr(x, "shape", None) for x in args] == self._of_one:
+            if self._one_state is None:
+                self._one_state = self._code(self.program._plain).one_state(False)
+            found = self._one_state(*args) if self._one_state else None
+            if found is not None:
+                return tuple(self.program.packed(dict(zip(self._symbols, found[k::2]))) for k in (0, 1))
+        return super().__call__(*args, **named)
+
+    def _code(self, names: tuple[str, ...]) -> BackEnd:
+        """Return what runs the line with its bounds for states with these arguments; rewritten once."""
+        if names not in self._codes:
+            line, backend = self.program._code(names).line, self.program.backend
+            running = with_running_bound(line, self.dtype, alarm=ALARM, fma=backend == "llvm")
+            self._codes[names] = BackEnd(running, self.dtype, backend)
+        return self._codes[names]
+
+    def _own(self, name: str, x: Any) -> None:
+        return None
+
+    def _run(self, states: Mapping[str, Array], own: Mapping[str, Any]) -> dict[str, Array]:
+        return self._code(tuple(states)).results(states, self.program.batch(states), self.program.threads)
+
+    def _check(self, states: Mapping[str, Array], found: Mapping[str, Array]) -> None:
+        """Let the textbook look at the states that raise the alarm, and fill in what it finds, with closer bounds."""
+        unsure = ~(found[ALARM] <= 1)
+        if not unsure.any():
+            return
+        asked = {**self.program.given, **states}
+        by_the_textbook(self.model, self.program.quantities, asked, found, unsure)
+        both = self.closer(**{name: x[unsure] for name, x in states.items()})
+        for ending, part in zip(("", BOUND), both, strict=True):
+            values = {self._symbols[0]: part} if self.program.single else vars(part)
+            for symbol, x in values.items():
+                found[symbol + ending][unsure] = x
+
+    def _result(self, found: Mapping[str, Array], symbol: str) -> tuple[Array, Array]:
+        return found[symbol], found[symbol + BOUND]
+
+
+def with_digits(program: Program, number: str | None, bound: bool | str) -> Program | DigitsProgram:
     """Return a program as it is, or in numbers that are not NumPy's ("double-double", …), or with a bound."""
-    if number == PAIRS:
-        return DoubleDoubleProgram(program, bound)
+    if number == PAIRS and bound != RUNNING:
+        return DoubleDoubleProgram(program, bool(bound))
     if bound and (number or program.dtype not in NATIVE):
-        raise TypeError(f'bound: expected dtype float32, float64 or "double-double", got {number or program.dtype}')
+        held = "float32 or float64" if bound == RUNNING else 'float32, float64 or "double-double"'
+        raise TypeError(f"bound: expected dtype {held}, got {number or program.dtype}")
     if number:
         return WideProgram(program, number)
+    if bound == RUNNING:
+        return RunningProgram(program)
     return BoundedProgram(program) if bound else program
 
 
