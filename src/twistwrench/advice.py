@@ -11,7 +11,7 @@ import argparse
 import re
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -68,6 +68,10 @@ UNITS = {
 """How units are spelt, without blanks, dots and capitals."""
 
 
+Bound = Literal["running"] | bool
+"""Whether a program proves its error, and how: see `tw.compile`."""
+
+
 class Use(NamedTuple):
     """What somebody computes, and how exactly.
 
@@ -100,7 +104,7 @@ class Use(NamedTuple):
     unit: str
     enough: str
 
-    def function(self, number: str, bound: str | bool = False) -> str:
+    def function(self, number: str, bound: Bound = False) -> str:
         """Return the call as it is written."""
         if self.want in WITHOUT_PROGRAM:
             return str(self.want)
@@ -109,12 +113,12 @@ class Use(NamedTuple):
         options += f", bound={bound!r}".replace("'", '"') if bound else ""
         return f"tw.compile(model, {wanted}{options})"
 
-    def make(self, model: Model, number: str, bound: str | bool = False) -> Callable[[Array, Array, Array], Any]:
+    def make(self, model: Model, number: str, bound: Bound = False) -> Callable[[Array, Array, Array], Any]:
         """Return the function of (q, v, u)."""
         if self.want in WITHOUT_PROGRAM:
             return WITHOUT_PROGRAM[str(self.want)](model)
         names = self.arguments.split()
-        program = tw.compile(model, self.want, dtype=number, bound=bound)  # type: ignore[arg-type]
+        program = tw.compile(model, self.want, dtype=number, bound=bound)
 
         def call(q: Array, v: Array, u: Array) -> Any:
             state = {"q": q, "v": v, "a": u, "tau": u}
@@ -148,7 +152,7 @@ class Advice(NamedTuple):
     unit: str
     seconds: float
     enough: str
-    checked: int
+    checked: int = EXACT_STATES
 
     def __str__(self) -> str:
         some = "one state" if self.states == 1 else f"{self.states} states in a call"
@@ -410,7 +414,7 @@ def advise(
     most, unit = read_tolerance(within, wanted.unit)
     if certified and (wanted.want in WITHOUT_PROGRAM or unit != "N m"):
         raise ValueError(f"certified: a bound is proved of programs, in N m; {use!r} has none")
-    ways: list[tuple[str, str | bool]] = [(number, False) for number in wanted.numbers]
+    ways: list[tuple[str, Bound]] = [(number, False) for number in wanted.numbers]
     if certified:
         ways = [("float64", "running"), ("float64", True)]
     tried = [_measure(model, use, number, bound, unit, rounds, progress) for number, bound in ways]
@@ -498,7 +502,7 @@ def _for_motion(
     return Decision(most, unit, tuple(rows), found.sure, found.instead)
 
 
-def _measure(model: Model, use: str, number: str, bound: str | bool, unit: str, rounds: int, progress: bool) -> Advice:
+def _measure(model: Model, use: str, number: str, bound: Bound, unit: str, rounds: int, progress: bool) -> Advice:
     """Return the error and the time of one way."""
     wanted = USES[use]
     if progress:

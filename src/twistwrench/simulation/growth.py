@@ -114,16 +114,16 @@ def motion_error(
     half = simulate(model, q, v, dt=dt / 2, **options)
     nudged = simulate(model, aside, v, dt=dt, **options)
     made = len(whole.t) - 1
-    growth = _growth(whole, nudged)
+    growth = _growth(model, whole, nudged)
     size = np.abs(_points(model, whole.q[-1])).max(axis=(-2, -1)) + 1  # m
     rounding = 1e3 * size * np.finfo(np.float64).eps * np.sqrt(made) * np.maximum(growth, 1)
     share = 1 - 2.0 ** -METHODS[method].order
     return MotionError(apart(model, whole.q[-1], half.q[-1]) / share, rounding, growth)
 
 
-def _growth(whole: Simulation, nudged: Simulation) -> Array:
+def _growth(model: Model, whole: Simulation, nudged: Simulation) -> Array:
     """Return by what the distance of two motions has grown; where it outgrows `LINEAR_MM`, at the rate up to then."""
-    model, steps = whole.model, len(whole.t) - 1
+    steps = len(whole.t) - 1
     looked = np.unique(np.linspace(0, steps, LOOKS).astype(int))
     distance = np.stack([apart(model, whole.q[k], nudged.q[k]) for k in looked])
     linear = np.cumsum(distance > LINEAR_MM, axis=0) == 0
