@@ -28,6 +28,7 @@ from .algorithms.kinematics import forward_kinematics, frame_bias_acceleration, 
 from .algorithms.mimic import MimicModel
 from .algorithms.momentum_rate import (
     center_of_mass_acceleration,
+    center_of_mass_jacobian,
     center_of_mass_velocity,
     centroidal_inertia,
     centroidal_map_rate,
@@ -156,6 +157,7 @@ __all__ = [
     "bridge",
     "center_of_mass",
     "center_of_mass_acceleration",
+    "center_of_mass_jacobian",
     "center_of_mass_velocity",
     "center_of_pressure",
     "centroidal_inertia",

@@ -89,6 +89,7 @@ def test_every_argument_changes_the_answer_of_every_algorithm(base):
         (tw.centroidal_momentum_rate, {"q": q, "v": v, "a": a}),
         (tw.centroidal_map_rate, {"q": q, "v": v}),
         (tw.centroidal_inertia, {"q": q}),
+        (tw.center_of_mass_jacobian, {"q": q}),
         (tw.center_of_mass_velocity, {"q": q, "v": v}),
         (tw.center_of_mass_acceleration, {"q": q, "v": v, "a": a}),
         (lambda m, q, frame: tw.subtree(m, q, frame).momentum_map, {"q": q, "frame": frame}),

@@ -72,6 +72,7 @@ def test_velocity_and_acceleration_are_derivatives_of_the_center_of_mass(recipe)
     model, s = recipe.model, recipe.state()
     G, v_G = tw.center_of_mass(model, s.q), tw.center_of_mass_velocity(model, s.q, s.v)
     assert close(v_G, rate(tw.center_of_mass(model, step(model, s.q, s.v))), size=np.abs(G).max())
+    assert close(tw.center_of_mass_jacobian(model, s.q) @ s.v, v_G, size=np.abs(s.v).max())
     later = tw.center_of_mass_velocity(model, step(model, s.q, s.v), s.v + 1e-20j * s.a)
     assert close(tw.center_of_mass_acceleration(model, s.q, s.v, s.a), rate(later), size=np.abs(v_G).max())
 
@@ -118,6 +119,9 @@ def test_all_are_pinocchios(recipe):
     pin.centerOfMass(there, data, s.q, v, a)
     assert close(tw.center_of_mass_velocity(model, s.q, s.v), data.vcom[0], size=np.abs(s.v).max())
     assert close(tw.center_of_mass_acceleration(model, s.q, s.v, s.a), data.acom[0], size=(s.v**2).sum())
+    linear = pin.jacobianCenterOfMass(there, data, s.q).reshape(3, -1)
+    rows = np.concatenate([linear, np.zeros((3, model.nv))])
+    assert close(tw.center_of_mass_jacobian(model, s.q), tw.bridge.from_pinocchio_jacobian(model, rows)[3:])
 
 
 @hinges_and_slides
@@ -151,6 +155,7 @@ def test_every_number_type_and_batch_is_kept(dtype, batch):
     for function, motion, tail in (
         (tw.centroidal_map_rate, "v", (6, model.nv)),
         (tw.centroidal_inertia, "", (6, 6)),
+        (tw.center_of_mass_jacobian, "", (3, model.nv)),
         (tw.center_of_mass_velocity, "v", (3,)),
         (tw.center_of_mass_acceleration, "va", (3,)),
     ):

@@ -118,6 +118,7 @@ def test_laws_of_mechanics_hold_in_the_smaller_model(save, text, base):
     bias = tw.centroidal_momentum_rate(model, q, v, a) - tw.centroidal_map(model, q) @ a
     close(tw.centroidal_map_rate(model, q, v) @ v, bias)
     close(tw.center_of_mass_velocity(model, q, v) * model.full.mass, tw.centroidal_momentum(model, q, v)[3:])
+    close(tw.center_of_mass_jacobian(model, q) @ v, tw.center_of_mass_velocity(model, q, v))
     close(tw.center_of_mass_acceleration(model, q, v, a) * model.full.mass,
           tw.centroidal_momentum_rate(model, q, v, a)[3:])  # fmt: skip
     close(tw.centroidal_inertia(model, q)[3:, 3:], model.full.mass * np.eye(3))

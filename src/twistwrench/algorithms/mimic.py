@@ -35,7 +35,7 @@ RESULTS = {
     **dict.fromkeys(("rnea", "nonlinear_effects", "gravity"), FORCES),
     **dict.fromkeys(("crba", "coriolis_matrix"), MATRICES),
     **dict.fromkeys(("frame_jacobian", "contact_jacobian", "point_jacobian"), COLUMNS),
-    **dict.fromkeys(("centroidal_map", "centroidal_map_rate"), COLUMNS),
+    **dict.fromkeys(("centroidal_map", "centroidal_map_rate", "center_of_mass_jacobian"), COLUMNS),
     **dict.fromkeys(("forward_kinematics", "frame_placement", "frame_bias_acceleration", "joint_wrenches"), UNCHANGED),
     **dict.fromkeys(("kinetic_energy", "potential_energy", "center_of_mass"), UNCHANGED),
     **dict.fromkeys(("centroidal_momentum", "centroidal_momentum_rate", "centroidal_inertia"), UNCHANGED),

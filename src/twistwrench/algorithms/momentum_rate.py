@@ -11,10 +11,11 @@ from ..arrays import Array
 from ..model import Model, Tree, check_state, columns, composite_inertias, tree_terms
 from ..spatial.formulas import cross_force, cross_motion, symmetric
 from ._mimic import also_of_mimics
-from .centroidal import centroidal_momentum, centroidal_momentum_rate, to_center_of_mass, total_mass
+from .centroidal import centroidal_map, centroidal_momentum, centroidal_momentum_rate, to_center_of_mass, total_mass
 
 __all__ = [
     "center_of_mass_acceleration",
+    "center_of_mass_jacobian",
     "center_of_mass_velocity",
     "centroidal_inertia",
     "centroidal_map_rate",
@@ -126,6 +127,36 @@ def centroidal_inertia(model: Model, q: ArrayLike) -> Array:
     (q,) = check_state(model, q)
     tree = tree_terms(model, q)
     return total_inertia(tree, to_center_of_mass(model, tree, q), range(model.nbodies))
+
+
+@also_of_mimics
+def center_of_mass_jacobian(model: Model, q: ArrayLike) -> Array:
+    """Return J_G, the Jacobian of the centre of mass: v_G = J_G v, the linear rows of A_G over the mass.
+
+    Parameters
+    ----------
+    model : Model
+    q : array_like, shape (..., nq)
+
+    Returns
+    -------
+    ndarray, shape (..., 3, nv)
+        In the axes of the world.
+
+    Raises
+    ------
+    SingularError, ShapeError, ValueError
+        As `center_of_mass`.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> tw.center_of_mass_jacobian(tw.load("pendulum"), [0.0]).round(12) + 0.0
+    array([[-1.],
+           [ 0.],
+           [ 0.]])
+    """
+    return _over_mass(model, centroidal_map(model, q).mT).mT
 
 
 @also_of_mimics

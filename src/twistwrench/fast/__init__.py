@@ -34,7 +34,8 @@ program       `Program`, which is called as the textbook's functions are
 digits        programs in pairs of doubles, in quadruple precision, in mpmath's numbers; and with a bound
 compilation   `compile`
 programs      the program for a model and a question, made once; where there is none, the textbook
-functions     the public functions
+functions     dynamics
+kinematics    frames, the centre of mass, energies
 steps         steps q ⊕ u, for simulations
 ============  ===================================================================================
 
@@ -52,5 +53,28 @@ True
 """
 
 from .functions import aba, centroidal_map, crba, dynamics, nonlinear_effects, rnea
+from .kinematics import (
+    center_of_mass,
+    center_of_mass_jacobian,
+    frame_bias_acceleration,
+    frame_jacobian,
+    frame_placement,
+    kinetic_energy,
+    potential_energy,
+)
 
-__all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
+__all__ = [
+    "aba",
+    "center_of_mass",
+    "center_of_mass_jacobian",
+    "centroidal_map",
+    "crba",
+    "dynamics",
+    "frame_bias_acceleration",
+    "frame_jacobian",
+    "frame_placement",
+    "kinetic_energy",
+    "nonlinear_effects",
+    "potential_energy",
+    "rnea",
+]

@@ -22,6 +22,7 @@ from ..algorithms.inverse_mass import inverse_mass_matrix
 from ..algorithms.kinematics import Reference, frame_bias_acceleration, frame_jacobian, frame_placement
 from ..algorithms.momentum_rate import (
     center_of_mass_acceleration,
+    center_of_mass_jacobian,
     center_of_mass_velocity,
     centroidal_inertia,
     centroidal_map_rate,
@@ -52,6 +53,7 @@ FUNCTIONS: dict[str, tuple[str, Callable[..., Array]]] = {
     "dh_G": ("q v a", centroidal_momentum_rate),
     "dA_G": ("q v", centroidal_map_rate),
     "I_G": ("q", centroidal_inertia),
+    "J_G": ("q", center_of_mass_jacobian),
     "v_G": ("q v", center_of_mass_velocity),
     "a_G": ("q v a", center_of_mass_acceleration),
 }
