@@ -1,11 +1,11 @@
 """NumPy code as a straight line of operations, and what runs it: machine code, NumPy, Python, C, pairs of doubles.
 
-A function that only adds, multiplies, divides and takes sines, cosines and roots does the same for every argument. It
-is called once, with numbers that have no value and remember what is done to them. What they remember is a `Line`:
-operations one after the other, without a loop and without a condition, from which all is left out that is zero, or
-there already, or not needed. A line is data. It can be counted, differentiated, written as text, run for a million
-arguments at once, or rewritten into one that has 32 digits and a proved bound of its error. Nothing in this package
-knows what a line computes.
+A function that only adds, multiplies, divides and takes sines, cosines, roots and angles does the same for every
+argument; of two numbers that are both computed it may choose one. It is called once, with numbers that have no value
+and remember what is done to them. What they remember is a `Line`: operations one after the other, without a loop and
+without a jump, from which all is left out that is zero, or there already, or not needed. A line is data. It can be
+counted, differentiated, written as text, run for a million arguments at once, or rewritten into one that has 32 digits
+and a proved bound of its error. Nothing in this package knows what a line computes.
 
 >>> import numpy as np
 >>> def turned(x, angle):
@@ -57,6 +57,7 @@ file           what it holds
 number         `Number`, which only remembers what is done to it, and the `Tape` it writes on
 line           `Line`: the operations that a question needs, one after the other
 sine           sin and cos as arithmetic, for many angles at once
+arctangent     atan2 as arithmetic, for many points at once
 instructions   LLVM's language: arithmetic, and the way in and out of memory
 objects        machine code on disk, for the next process
 llvm           machine code, by LLVM

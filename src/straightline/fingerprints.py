@@ -72,7 +72,7 @@ def each_once(line: Line) -> Line:
                     value = tape.apply(operation, *x)
                 else:
                     value = rule(*x)
-            if type(value) is Number and (operation in ("sin", "cos") or turns[node[1]] or turns[node[-1]]):
+            if type(value) is Number and (operation in ("sin", "cos") or any(turns[j] for j in node[1:])):
                 known[one], turns[k] = value, True
         values[k] = value
     if line.notes:
@@ -116,7 +116,7 @@ class Fingerprint:
                 return tuple((1 - t * t) * _inverse(1 + t * t, prime) % prime for t in self.free((x0, x1)))
             case "sin":
                 return tuple(2 * t * _inverse(1 + t * t, prime) % prime for t in self.free((x0, x1)))
-        return self.free((operation, x0, x1, y0, y1))
+        return self.free((operation, *[marks[k] for k in node[1:]]))
 
     def free(self, key: Any) -> Mark:
         """Return a random fingerprint, the same for the same key."""

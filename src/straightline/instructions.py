@@ -58,6 +58,10 @@ class InstructionText:
             mask = self.bits(whole, ALL_BUT_THE_SIGN[self.scalar])
             same = self.new(f"bitcast %V {operands[0]} to {whole}")
             return self.new(f"bitcast {whole} {self.new(f'and {whole} {same}, {mask}')} to %V")
+        if operation == "select":
+            above = self.new(f"fcmp ogt %V {operands[0]}, zeroinitializer")
+            flags = "i1" if self.width == 1 else f"<{self.width} x i1>"
+            return self.new(f"select {flags} {above}, %V {operands[1]}, %V {operands[2]}")
         kind = ("" if self.width == 1 else f"v{self.width}") + f"f{8 * self.bytes}"
         function = f"%V @llvm.{INTRINSICS[operation]}.{kind}"
         self.declared.add(f"declare {function}({', '.join(['%V'] * len(operands))})")

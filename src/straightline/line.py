@@ -108,12 +108,12 @@ def ordered(wanted: Sequence[int], needs: Callable[[int], Sequence[int]]) -> Ite
                 left += [(k, True), *((j, False) for j in reversed(needs(k)))]
 
 
-def rewritten(line: Line, rules: Mapping[str, Callable[[Number], Any]]) -> Line:
+def rewritten(line: Line, rules: Mapping[str, Callable[..., Any]]) -> Line:
     """Return a line in which some functions are written as other operations."""
     tape, index = Tape(), list[int]()
     for node in line.nodes:
         if node[0] in rules:
-            index.append(tape.node(rules[node[0]](Number(tape, index[node[1]]))))
+            index.append(tape.node(rules[node[0]](*[Number(tape, index[k]) for k in node[1:]])))
         else:
             index.append(tape.places[renumbered(node, index)])
     outputs = {name: (shape, tuple([index[k] for k in entries])) for name, (shape, entries) in line.outputs.items()}

@@ -1,8 +1,8 @@
 """Machine code from a straight line, by LLVM: one state, or as many at once as a register of the processor holds.
 
 Every operation becomes one instruction of LLVM's language, with the same numbers of W states in one register. All that
-is written besides is a loop over the states, the way in and out of memory, and sin and cos (`sine`). The results are
-what the operations say, to the last bit.
+is written besides is a loop over the states, the way in and out of memory, and sin, cos and atan2 (`sine`,
+`arctangent`). The results are what the operations say, to the last bit.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from . import objects
+from .arctangent import with_arctangents
 from .instructions import InstructionText
 from .line import LEAVES, Line
 from .number import Array, without_garbage
@@ -157,7 +158,7 @@ def written(line: Line, scalar: str, width: int) -> str:
     In pieces, since the time that a compiler takes grows faster than the length of what it compiles at once. LLVM is to
     translate each instruction by itself (`optnone`), four times as quickly, which needs constants in memory.
     """
-    pieces = Pieces(with_series(line, scalar), scalar, width)
+    pieces = Pieces(with_series(with_arctangents(line, scalar), scalar), scalar, width)
     for needed, node, group in pieces.turns:
         if group:
             pieces.store(*group)

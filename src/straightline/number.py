@@ -1,12 +1,15 @@
 """Numbers that only remember what was done to them: how a function becomes a straight line.
 
-A function that is arithmetic runs as it stands if it is called with arrays of `Number`, and each + − × ÷, sin, cos and
-sqrt is written down instead of computed. Its loops are gone: what is left is one operation after the other, in which
+A function that is arithmetic runs as it stands if it is called with arrays of `Number`, and each + − × ÷, sin, cos,
+sqrt and atan2 is written down instead of computed. Its loops are gone: what is left is one operation after the other,
+in which
 
 - what is multiplied by 0 is dropped, and so is a factor of 1 or an addition of 0;
 - what occurs a second time is the first one again;
 - signs go outward, −a · b = −(a · b), where a sum absorbs them; but a constant keeps its own, so that what is mirrored
   comes to the same operations.
+
+A number cannot be asked how large it is. But `select` writes down a choice between two numbers: both are computed.
 
 No rule changes a rounding: a line computes what the function computes, to the last bit but for signs of zero, the order
 of a sum of two, and doublings.
@@ -32,7 +35,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["ARITHMETIC", "Array", "Node", "Number", "Tape", "is_power_of_two", "numbers", "without_garbage"]
+__all__ = ["ARITHMETIC", "Array", "Node", "Number", "Tape", "is_power_of_two", "numbers", "select", "without_garbage"]
 
 Array = NDArray[Any]
 
@@ -208,6 +211,14 @@ class Number:
         """Return the square root."""
         return self.tape.apply("sqrt", self)
 
+    def arctan2(self, other: Any) -> Number:
+        """Return the angle of the point (other, self), from −π to π; it is not a number at (0, 0)."""
+        return self.tape.apply("atan2", self, other)
+
+    def select(self, a: Any, b: Any) -> Any:
+        """Return a where this is above 0, b elsewhere: see `select`."""
+        return select(self, a, b)
+
     def _has_no_value(self, *others: Any) -> NoReturn:
         compare = f" to compare with {others[0]!r}" if others else ""
         raise TypeError(f"a recorded number has no value{compare}: a straight line is the same for every state")
@@ -218,6 +229,18 @@ class Number:
 
     def __repr__(self) -> str:
         return f"<Number {'-' * self.minus}{self.index}: {self.tape.nodes[self.index]}>"
+
+
+def select(x: Any, a: Any, b: Any) -> Any:
+    """Return a where x > 0, b elsewhere, of numbers and constants; what is not chosen may be infinite, or no number.
+
+    >>> x = Tape().input("x")
+    >>> select(x, 1, x), select(ONE, x, 2 * x) is x
+    (<Number 2: ('select', 0, 1, 0)>, True)
+    """
+    if not isinstance(x, Number):
+        return a if x > 0 else b
+    return x.tape.apply("select", x, a, b)
 
 
 def is_power_of_two(c: Fraction) -> bool:

@@ -21,7 +21,14 @@ from .sine import split
 
 __all__ = ["Registers"]
 
-NAMES = {"sub": "subtract", "mul": "multiply", "div": "divide", "neg": "negative", "round": "rint"}
+NAMES = {
+    "sub": "subtract",
+    "mul": "multiply",
+    "div": "divide",
+    "neg": "negative",
+    "round": "rint",
+    "atan2": "arctan2",
+}
 """Operations that have another name in NumPy."""
 
 CHUNK = 2048  # states that are computed together: for fewer, a call takes longer than what it computes
@@ -167,6 +174,8 @@ def with_half_angles(line: Line) -> Line:
 
 def function_of(operation: str, dtype: np.dtype[Any]) -> Any:
     """Return what computes an operation; where numbers of mpmath raise an error, the result is NaN as in NumPy."""
+    if operation == "select":
+        return select
     if not dtype.hasobject or operation not in ("div", "sqrt", "sin", "cos"):
         return getattr(np, NAMES.get(operation, operation))
     from mpmath import mp
@@ -175,6 +184,11 @@ def function_of(operation: str, dtype: np.dtype[Any]) -> Any:
         return np.frompyfunc(lambda a, b: a / b if b else mp.nan, 2, 1)
     function = getattr(mp, operation)
     return np.frompyfunc(lambda a: function(a) if operation != "sqrt" or a >= 0 else mp.nan, 1, 1)
+
+
+def select(x: Array, a: Any, b: Any, filled: Array) -> None:
+    """Fill in a where x, or the real part of it, is above 0, and b elsewhere."""
+    filled[...] = np.where(np.real(x) > 0, a, b)
 
 
 def as_number_of(dtype: np.dtype[Any], x: Fraction) -> Any:

@@ -17,7 +17,7 @@ import numpy as np
 from .line import Line, rewritten
 from .number import Number
 
-__all__ = ["PI", "SINE_ROUNDINGS", "known_sines", "quarter_turns", "split", "with_series"]
+__all__ = ["KIND", "PI", "SINE_ROUNDINGS", "known_sines", "quarter_turns", "split", "with_series"]
 
 PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899862803482534211706798")
 """π to 100 digits."""

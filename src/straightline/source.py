@@ -18,6 +18,7 @@ from .number import Node
 __all__ = ["Note", "c_source", "python_source"]
 
 OPERATORS = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
+PYTHON_CHOICE, C_CHOICE = "({a} if {x} > 0 else {b})", "({x} > 0 ? {a} : {b})"
 
 
 class Note(NamedTuple):
@@ -30,10 +31,11 @@ class Note(NamedTuple):
 def python_source(line: Line, name: str, functions: str = "math") -> str:
     """Return a line as a Python function of sequences of numbers, with cos of this module; results are nested lists."""
     names = _names(line, lambda array, index: array + "".join(f"[{k}]" for k in index))
-    called = sorted({operation for operation in line.operations if operation not in (*OPERATORS, "neg", "abs")})
+    own = (*OPERATORS, "neg", "abs", "select")
+    called = sorted({operation for operation in line.operations if operation not in own})
     text = [f"from {functions} import {', '.join(called)}", "", ""] if called else []
     text.append(f"def {name}({', '.join(line.inputs)}):")
-    text += [f"    {one}" for one in _statements(line, names, "#", "{} = {}")]
+    text += [f"    {one}" for one in _statements(line, names, "#", "{} = {}", PYTHON_CHOICE)]
     nested = [_nested([names[k] for k in entries], shape) for shape, entries in line.outputs.values()]
     return "\n".join([*text, f"    return {', '.join(nested)}", ""])
 
@@ -44,7 +46,7 @@ def c_source(line: Line, name: str) -> str:
     results = [array if len(line.outputs) > 1 else "result" for array in line.outputs]
     arguments = [f"const double *{array}" for array in line.inputs] + [f"double *{result}" for result in results]
     text = ["#include <math.h>", "", f"void {name}({', '.join(arguments)})", "{"]
-    text += [f"    {one}" for one in _statements(line, names, "//", "const double {} = {};")]
+    text += [f"    {one}" for one in _statements(line, names, "//", "const double {} = {};", C_CHOICE)]
     for result, (_, entries) in zip(results, line.outputs.values()):
         text += [f"    {result}[{k}] = {names[node]};" for k, node in enumerate(entries)]
     return "\n".join([*text, "}", ""])
@@ -69,25 +71,28 @@ def _names(line: Line, entry: Callable[[str, tuple[int, ...]], str]) -> list[str
     return names
 
 
-def _statements(line: Line, names: list[str], comment: str, assign: str) -> Iterator[str]:
+def _statements(line: Line, names: list[str], comment: str, assign: str, choice: str) -> Iterator[str]:
     """Yield a line of text for each operation but those within another's, and a comment where another step begins."""
     before, names = None, [*names]
     for k, node in enumerate(line.nodes):
         if node[0] in ("input", "const"):
             continue
         if k in line.inner:
-            names[k] = _expression(line, node, names)
+            names[k] = _expression(line, node, names, choice)
             continue
         note = line.notes[k] if line.notes else None
         if note is not None and note != before:
             yield f"{comment} {note.comment}"
         before = note
-        yield assign.format(names[k], _expression(line, node, names))
+        yield assign.format(names[k], _expression(line, node, names, choice))
 
 
-def _expression(line: Line, node: Node, names: list[str]) -> str:
+def _expression(line: Line, node: Node, names: list[str], choice: str) -> str:
     """Return an operation as text, its operands in brackets wherever they stand within it and are not calls."""
     operation, *needed = node
+    if operation == "select":
+        x, a, b = (names[k] for k in needed)
+        return choice.format(x=x, a=a, b=b)
     if operation not in (*OPERATORS, "neg"):
         return f"{operation}({', '.join(names[k] for k in needed)})"
     plain = ("mul", "div") if operation in ("add", "sub") else ()

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from .line import needed
-from .number import Array, Node, Number, Tape
+from .number import ZERO, Array, Node, Number, Tape, select
 
 __all__ = ["Tangent", "directions", "jacobian", "nonzero"]
 
@@ -71,6 +71,11 @@ def _tangent(tape: Tape, nodes: Sequence[Node], k: int, known: Mapping[int, Tang
             return _times(-x.sin(), dx)
         case "sqrt":
             return _times(1 / (2 * Number(tape, k)), dx)
+        case "atan2":  # z = atan2(x, y): dz = (y dx − x dy) / (x² + y²)
+            return {c: d / (x * x + y * y) for c, d in _sum(_times(y, dx), _times(-x, dy)).items()}
+        case "select":  # the derivative of what is chosen
+            chosen = others[1][1]
+            return nonzero({c: select(x, dy.get(c, ZERO), chosen.get(c, ZERO)) for c in dy | chosen})
     raise NotImplementedError(f"the derivative of {operation!r}")
 
 

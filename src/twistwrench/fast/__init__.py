@@ -36,7 +36,7 @@ compilation   `compile`
 programs      the program for a model and a question, made once; where there is none, the textbook
 functions     dynamics
 kinematics    frames, the centre of mass, energies
-steps         steps q ⊕ u, for simulations
+steps         q ⊕ v_dt, q₁ ⊖ q₀, their derivatives, and the way between
 ============  ===================================================================================
 
 >>> import numpy as np
@@ -62,6 +62,7 @@ from .kinematics import (
     kinetic_energy,
     potential_energy,
 )
+from .steps import d_difference, d_integrate, difference, integrate, interpolate
 
 __all__ = [
     "aba",
@@ -69,10 +70,15 @@ __all__ = [
     "center_of_mass_jacobian",
     "centroidal_map",
     "crba",
+    "d_difference",
+    "d_integrate",
+    "difference",
     "dynamics",
     "frame_bias_acceleration",
     "frame_jacobian",
     "frame_placement",
+    "integrate",
+    "interpolate",
     "kinetic_energy",
     "nonlinear_effects",
     "potential_energy",

@@ -19,7 +19,8 @@ from ..errors import check_known
 from ..model import Model, check_arrays, check_model
 from .digits import NUMBERS, RUNNING, WIDE, DigitsProgram, wide_type, with_digits
 from .program import Program
-from .quantities import ARGUMENTS, Quantity, chosen, quantities
+from .quantities import Quantity, chosen, quantities
+from .quantity import STATE
 
 __all__ = ["compile"]
 
@@ -210,7 +211,7 @@ def _checked(model: Model, given: Mapping[str, ArrayLike] | None) -> dict[str, A
         return {}
     check_kind(given, "given", Mapping, "values of arguments by their names")
     for name in given:
-        check_known("argument", name, ARGUMENTS)
+        check_known("argument", name, STATE)
     checked = dict(zip(given, check_arrays(model, **given)))
     for name, x in checked.items():
         if x.dtype.kind == "c":

@@ -33,10 +33,10 @@ from ..arrays import Array
 from ..errors import check_known
 from ..model import Model, tree_terms
 from .derivatives import derivatives, regressor
-from .quantity import ARGUMENTS, Quantity, shapes
+from .quantity import Quantity, shapes
 from .watch import MIN_PIVOT_SHARE, pivots, with_watch
 
-__all__ = ["ARGUMENTS", "SYMBOLS", "Quantity", "chosen", "quantities", "shapes"]
+__all__ = ["SYMBOLS", "Quantity", "chosen", "quantities", "shapes"]
 
 FUNCTIONS: dict[str, tuple[str, Callable[..., Array]]] = {
     "tau": ("q v a f_ext", rnea),

@@ -11,11 +11,21 @@ from straightline.double_double import DoubleDouble
 
 from ..arrays import Array
 from ..errors import SingularError
-from ..model import Model, floats_of
+from ..model import Model, check_entries, with_number
 
-__all__ = ["ARGUMENTS", "Quantity", "by_the_textbook", "checked", "computed", "shapes", "shapes_by_the_textbook"]
+__all__ = [
+    "ARGUMENTS",
+    "STATE",
+    "Quantity",
+    "by_the_textbook",
+    "checked",
+    "computed",
+    "shapes",
+    "shapes_by_the_textbook",
+]
 
-ARGUMENTS = ("q", "v", "a", "tau", "f_ext")  # the arguments of a program, in this order
+STATE = ("q", "v", "a", "tau", "f_ext")  # the arguments of what is computed of a state
+ARGUMENTS = ("q0", "q1", "u", *STATE, "v_dt")  # those of a program, in this order: of steps, too
 CHUNK = 2**17  # states times degrees of freedom that the textbook takes at a time
 
 
@@ -32,8 +42,8 @@ class Quantity(NamedTuple):
 
 def shapes(model: Model) -> dict[str, tuple[int, ...]]:
     """Return the shape of each argument of one state."""
-    nv = (model.nv,)
-    return {"q": (model.nq,), "v": nv, "a": nv, "tau": nv, "f_ext": (model.nbodies, 6)}
+    others = {"f_ext": (model.nbodies, 6), "u": ()}
+    return {name: others.get(name, (model.nq if name[0] == "q" else model.nv,)) for name in ARGUMENTS}
 
 
 def by_the_textbook(
@@ -44,7 +54,7 @@ def by_the_textbook(
     An argument has the batch axes, or none where it is the same in every state.
     """
     places, size = np.argwhere(where), max(1, CHUNK // max(1, model.nv))
-    alike = {name: np.ndim(x) == (2 if name == "f_ext" else 1) for name, x in states.items()}
+    alike = {name: np.ndim(x) == len(shapes(model)[name]) for name, x in states.items()}
     try:
         for k in range(0, len(places), size):
             at = tuple(places[k : k + size].mT)
@@ -81,8 +91,11 @@ def checked(model: Model, states: Mapping[str, Any]) -> dict[str, Array]:
         if isinstance(x, DoubleDouble):  # which NumPy takes for two states
             hint = 'a program of dtype="double-double" takes it'
             raise TypeError(f"{name}: expected an array, got a DoubleDouble; {hint}")
-    named = {"q": model.neutral(), **states}
-    found = dict(zip(named, floats_of(model, **named)))
+    named = {name: x for name, x in states.items() if name != "u"}
+    first = {} if any(name.startswith("q") for name in named) else {"q": model.neutral()}
+    found = dict(zip([*first, *named], check_entries(model, **first, **named)))
+    if "u" in states:
+        found = dict(zip([*found, "u"], with_number([*found.values()], [*found], states["u"], "u")))
     return {name: found[name] for name in states}
 
 

@@ -37,16 +37,15 @@ def state_questions(model: Model, arguments: Mapping[str, Array], dtype: np.dtyp
     """Yield what to watch of the arguments: sizes, norms, and a wrench on the world."""
     largest = min(int(np.finfo(dtype).maxexp), 1024)  # more than a double holds is left to the textbook
     for name, x in arguments.items():
-        limit = Fraction(2) ** (largest // (4 if name == "q" else 5))
+        limit = Fraction(2) ** (largest // (4 if name.startswith("q") else 5))
         for k in np.ndindex(x.shape):
             yield x[k] / limit
-    if "q" not in arguments:
-        return
     tolerance = Fraction(2) ** (int(np.frexp(float(resolution(dtype) ** 0.5))[1]) - 1)  # dividing by it rounds nothing
-    for joint, s in zip(model.joints, model.q_slice):
-        if joint is not None and joint.unit is not None:
-            part = arguments["q"][s][joint.unit]
-            yield ((part * part).sum() - 1) / (2 * tolerance)
+    for x in (x for name, x in arguments.items() if name.startswith("q")):
+        for joint, s in zip(model.joints, model.q_slice):
+            if joint is not None and joint.unit is not None:
+                part = x[s][joint.unit]
+                yield ((part * part).sum() - 1) / (2 * tolerance)
 
 
 def pivots(model: Model, tree: Tree, D_inv: Sequence[Array], dtype: np.dtype[Any]) -> Iterator[Any]:

@@ -13,10 +13,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_generator
+from ..arrays import Array, as_generator
 from ..errors import NameNotFound
 from .joint import Joint
-from .state import check_arrays, check_entries
+from .state import check_arrays, check_entries, with_number
 
 __all__ = ["ConfigurationSpace"]
 
@@ -188,7 +188,10 @@ class ConfigurationSpace:
         >>> bool(np.allclose(model.difference(q, model.integrate(q, step)), step, rtol=0, atol=1e-14))
         True
         """
-        q0, q1 = check_entries(self, q0=q0, q1=q1)
+        return self._way(*check_entries(self, q0=q0, q1=q1))
+
+    def _way(self, q0: Array, q1: Array) -> Array:
+        """Return q1 ⊖ q0 of checked configurations, or of numbers that are recorded."""
         return self._by_joint(lambda joint, qs, vs: joint.difference(q0[..., qs], q1[..., qs]), q0)
 
     def normalize(self, q: ArrayLike) -> Array:
@@ -261,7 +264,10 @@ class ConfigurationSpace:
                [-1.,  0.,  0.],
                [ 0.,  0.,  1.]])
         """
-        q, v_dt = check_entries(self, q=q, v_dt=v_dt)
+        return self._d_step(*check_entries(self, q=q, v_dt=v_dt))
+
+    def _d_step(self, q: Array, v_dt: Array) -> tuple[Array, Array]:
+        """Return the derivatives of a checked step, or of numbers that are recorded; q does not change them."""
         slices = zip(self.joints, self.v_slice)
         return self._blocks([joint.d_integrate(v_dt[..., vs]) for joint, vs in slices if joint], v_dt)
 
@@ -292,7 +298,10 @@ class ConfigurationSpace:
         >>> bool((J_1 == np.eye(18)).all() and (J_0 == -np.eye(18)).all())
         True
         """
-        q0, q1 = check_entries(self, q0=q0, q1=q1)
+        return self._d_way(*check_entries(self, q0=q0, q1=q1))
+
+    def _d_way(self, q0: Array, q1: Array) -> tuple[Array, Array]:
+        """Return the derivatives of q1 ⊖ q0 of checked configurations, or of numbers that are recorded."""
         slices = zip(self.joints, self.q_slice)
         return self._blocks([joint.d_difference(q0[..., qs], q1[..., qs]) for joint, qs in slices if joint], q1)
 
@@ -330,7 +339,8 @@ class ConfigurationSpace:
         array([[ 0. ,  0. ,  0. ],
                [ 0.5,  1. , -2. ]])
         """
-        return self.integrate(q0, as_array(u, "u")[..., None] * self.difference(q0, q1))
+        q0, q1, u = with_number(check_entries(self, q0=q0, q1=q1), ("q0", "q1"), u, "u")
+        return self.integrate(q0, u[..., None] * self._way(q0, q1))
 
     def distance(self, q0: ArrayLike, q1: ArrayLike) -> Array:
         """Return the length of q1 ⊖ q0: radians and metres in one root, so it depends on the unit of length.

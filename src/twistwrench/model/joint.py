@@ -20,12 +20,23 @@ from numpy.typing import ArrayLike, DTypeLike
 
 from ..arrays import Array, as_array, as_constant, convert, exact_unit, resolution
 from ..errors import ModelError
-from ..spatial import SE3, Jexp6, Jlog6, exp6, log6
-from ..spatial._elementary import at_first_index, sqrt
-from ..spatial.exponential import shift
+from ..spatial import SE3, exp6, log3
+from ..spatial._elementary import at_first_index, atan2, chosen, sqrt
+from ..spatial.exponential import shift, unshift
+from ..spatial.jacobians import exp6_jacobian, log6_jacobian
 from ..spatial.rotation import cross_matrix, turn_matrix
 
-__all__ = ["AxisJoint", "GroupJoint", "Joint", "check_subspace", "placement", "same_side", "turn", "unit"]
+__all__ = [
+    "AxisJoint",
+    "GroupJoint",
+    "Joint",
+    "angle_between",
+    "check_subspace",
+    "placement",
+    "same_side",
+    "turn",
+    "unit",
+]
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 
@@ -162,20 +173,30 @@ class GroupJoint(Joint):
 
     def difference(self, q0: Array, q1: Array) -> Array:
         """Return the dv that leads from q0 to q1: Sᵀ log(T(q0)⁻¹ T(q1)), a turn of at most π."""
-        S = self.subspace(q1.dtype)
-        dv: Array = np.matvec(S.mT, log6(self.transform(q0).inverse() @ self.transform(q1)))
+        dv: Array = np.matvec(self.subspace(q1.dtype).mT, self._twist_between(q0, q1))
         return dv
+
+    def turn_between(self, q0: Array, q1: Array) -> Array:
+        """Return the rotation vector that leads from q0 to q1, shape (..., 3)."""
+        return log3(self.transform(q0).rotation.mT @ self.transform(q1).rotation)
+
+    def _twist_between(self, q0: Array, q1: Array) -> Array:
+        """Return log(T(q0)⁻¹ T(q1)), the positions subtracted before they are turned, far from the origin too."""
+        T0, T1 = self.transform(q0), self.transform(q1)
+        w, p = self.turn_between(q0, q1), np.matvec(T0.rotation.mT, T1.translation - T0.translation)
+        return np.concatenate([w, unshift(w, p)], axis=-1)
 
     def d_integrate(self, dv: Array) -> tuple[Array, Array]:
         """Return SᵀXS, X of exp(−S dv), and SᵀJS, J of `Jexp6`: the beginning moves the end as seen from there."""
         S = self.subspace(dv.dtype)
         V = np.matvec(S, dv)
-        return S.mT @ exp6(-V).motion_transform() @ S, S.mT @ Jexp6(V) @ S
+        X = placement(turn_matrix(-V[..., :3]), shift(-V)).motion_transform()
+        return S.mT @ X @ S, S.mT @ exp6_jacobian(V) @ S
 
     def d_difference(self, q0: Array, q1: Array) -> tuple[Array, Array]:
         """Return −SᵀJS and SᵀJS, with J of `Jlog6` on the left, for q0, and on the right."""
-        S, T = self.subspace(q1.dtype), self.transform(q0).inverse() @ self.transform(q1)
-        return -S.mT @ Jlog6(T, "left") @ S, S.mT @ Jlog6(T) @ S
+        S, V = self.subspace(q1.dtype), self._twist_between(q0, q1)
+        return -S.mT @ log6_jacobian(-V) @ S, S.mT @ log6_jacobian(V) @ S
 
 
 @dataclass(frozen=True)
@@ -234,7 +255,14 @@ def placement(R: Array, p: Array) -> SE3:
 
 
 def same_side(quaternion: Array, near: Array) -> Array:
-    """Of q and −q, which are the same turn, take the one closer to `near`; a recorded step is so short that q is."""
-    if quaternion.dtype == object:
-        return quaternion
-    return np.where((quaternion * near).sum(axis=-1, keepdims=True).real < 0, -quaternion, quaternion)
+    """Of q and −q, which are the same turn, take the one closer to `near`."""
+    return chosen(-(quaternion * near).sum(axis=-1, keepdims=True), -quaternion, quaternion)
+
+
+def angle_between(p: Array, q: Array) -> Array:
+    """Return the angle from one (cos, sin) to another, above −π and up to π, shape (..., 1).
+
+    Its sine is p × q, or p × (q − p), which keeps all digits of a small angle; adding 0 takes the sign off a zero.
+    """
+    d = q - p
+    return atan2(p[..., :1] * d[..., 1:] - p[..., 1:] * d[..., :1] + 0, (p * q).sum(axis=-1, keepdims=True))

@@ -25,10 +25,10 @@ from ..arrays import Array, as_number, convert
 from ..errors import ModelError
 from ..spatial import SE3, rotation_to_quaternion
 from ..spatial._elementary import cos, sin
-from ..spatial._quaternions import exp_quaternion, quaternion_product
+from ..spatial._quaternions import exp_quaternion, quaternion_product, turn_between
 from ..spatial.exponential import shift
 from ..spatial.rotation import cross_matrix, quaternion_matrix
-from .joint import AxisJoint, GroupJoint, placement, same_side, turn, unit
+from .joint import AxisJoint, GroupJoint, Joint, angle_between, placement, same_side, turn, unit
 
 __all__ = ["Continuous", "FreeFlyer", "Helical", "Planar", "Prismatic", "Revolute", "Spherical"]
 
@@ -131,6 +131,23 @@ class Continuous(AxisJoint, GroupJoint):
         cs = unit(q)
         return turn(self._axis(q.dtype), cs[..., :1], cs[..., 1:])
 
+    def integrate(self, q: Array, dv: Array) -> Array:
+        """Turn the point (cos, sin) by the angle dv."""
+        c, s, cos_dv, sin_dv = q[..., :1], q[..., 1:], cos(dv), sin(dv)
+        return unit(np.concatenate([c * cos_dv - s * sin_dv, s * cos_dv + c * sin_dv], axis=-1))
+
+    def difference(self, q0: Array, q1: Array) -> Array:
+        """Return the angle from q0 to q1, the short way round."""
+        return angle_between(q0, q1)
+
+    def d_integrate(self, dv: Array) -> tuple[Array, Array]:
+        """Return 1 and 1: about one axis angles add up."""
+        return Joint.d_integrate(self, dv)
+
+    def d_difference(self, q0: Array, q1: Array) -> tuple[Array, Array]:
+        """Return −1 and 1."""
+        return Joint.d_difference(self, q0, q1)
+
     def from_placement(self, T: SE3, near: Array) -> Array:
         """Read cosine and sine off the turn: cos = (tr R − 1)/2, sin = axis · (R − Rᵀ)/2."""
         R = T.rotation
@@ -220,6 +237,11 @@ class Planar(GroupJoint):
         turned = turn(np.eye(3, dtype=q.dtype)[2], cs[..., :1], cs[..., 1:])
         return placement(turned.rotation, np.concatenate([q[..., :2], np.zeros_like(q[..., :1])], axis=-1))
 
+    def turn_between(self, q0: Array, q1: Array) -> Array:
+        """Return (0, 0, angle)."""
+        angle = angle_between(q0[..., 2:], q1[..., 2:])
+        return np.concatenate([0 * angle, 0 * angle, angle], axis=-1)
+
     def from_placement(self, T: SE3, near: Array) -> Array:
         """Read x, y, cosine and sine off the placement."""
         return np.concatenate([T.translation[..., :2], unit(T.rotation[..., :2, 0])], axis=-1)
@@ -251,6 +273,10 @@ class Spherical(GroupJoint):
     def integrate(self, q: Array, dv: Array) -> Array:
         """Turn by dv for one unit of time: as the joints with a unit part do, by a product of quaternions."""
         return same_side(unit(quaternion_product(q, exp_quaternion(dv))), q)
+
+    def turn_between(self, q0: Array, q1: Array) -> Array:
+        """Return the rotation vector from the quaternion q0 to q1."""
+        return turn_between(q0, q1)
 
     def from_placement(self, T: SE3, near: Array) -> Array:
         """Read the quaternion off the turn, with the sign that is closer to `near`."""
@@ -285,6 +311,10 @@ class FreeFlyer(GroupJoint):
         there = q[..., :3] + np.matvec(quaternion_matrix(q[..., 3:]), shift(dv))
         turned = quaternion_product(q[..., 3:], exp_quaternion(dv[..., :3]))
         return np.concatenate([there, same_side(unit(turned), q[..., 3:])], axis=-1)
+
+    def turn_between(self, q0: Array, q1: Array) -> Array:
+        """Return the rotation vector from the quaternion of q0 to that of q1."""
+        return turn_between(q0[..., 3:], q1[..., 3:])
 
     def from_placement(self, T: SE3, near: Array) -> Array:
         """Read position and quaternion off the placement, the sign closer to `near`."""

@@ -6,12 +6,13 @@ broadcast to one batch shape, and its quaternions have norm 1: the recursions ch
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_arrays, as_constant, as_number_arrays, check_size, comparable, resolution
+from ..arrays import Array, as_array, as_arrays, as_constant, as_number_arrays, check_size, comparable, resolution
 from ..arrays.conversion import ROUNDING_ATOL
 from ..errors import ShapeError
 from ..spatial._elementary import at_first_index
@@ -19,7 +20,7 @@ from ..spatial._elementary import at_first_index
 if TYPE_CHECKING:
     from .configuration import ConfigurationSpace
 
-__all__ = ["check_arrays", "check_entries", "in_double"]
+__all__ = ["check_arrays", "check_entries", "in_double", "with_number"]
 
 
 def check_entries(
@@ -47,6 +48,20 @@ def check_entries(
         if name.startswith("q"):
             arrays[k] = _with_norm_1(model, arrays[k], name, given=np.asarray(named[name]).dtype)
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
+
+
+def with_number(checked: Sequence[Array], names: Sequence[str], number: ArrayLike, name: str) -> tuple[Array, ...]:
+    """Return checked arguments with one more, which has batch axes alone, in one number type and one batch shape."""
+    x = as_array(number, name)
+    dtype = np.result_type(x, *checked)
+    batches = [*(one.shape[:-1] for one in checked), x.shape]
+    try:
+        batch = np.broadcast_shapes(*batches)
+    except ValueError:
+        listed = ", ".join(f"{one} {shape}" for one, shape in zip([*names, name], batches) if shape)
+        raise ShapeError(f"batch axes do not broadcast: {listed}") from None
+    both = [np.broadcast_to(one.astype(dtype, copy=False), batch + one.shape[-1:]) for one in checked]
+    return *both, np.broadcast_to(x.astype(dtype, copy=False), batch)
 
 
 def in_double(model: ConfigurationSpace, q: Array) -> Array:

@@ -16,7 +16,6 @@ import numpy as np
 from ..arrays import Array
 from ..fast.programs import cached_program
 from ..fast.quantities import Quantity
-from ..fast.steps import turns
 from ..model import GroupJoint, Model
 from ..spatial import cross_motion, skew
 from ..spatial._quaternions import exp_quaternion
@@ -30,7 +29,7 @@ def go_straight(model: Model, q: Array, u: Array) -> Array:
 
     `Model.integrate` would go along the screw of u.
     """
-    asked = Quantity("q", ("q", "v"), lambda q, u: (shifted_and_turned(model, q, u), watched(model, u)))
+    asked = Quantity("q", ("q", "v"), lambda q, u: (shifted_and_turned(model, q, u), []))
     there: Array = cached_program(model, ("straight", u.dtype), u.dtype, lambda: [asked], single=True)(q, u)
     return there
 
@@ -48,14 +47,9 @@ def shifted_and_turned(model: Model, q: Array, u: Array) -> Array:
     return model._step(shifted, turn) if u.dtype == object else model.integrate(shifted, turn)
 
 
-def watched(model: Model, u: Array) -> list[object]:
-    """Return what a program watches of a step: how far joints turn."""
-    return turns(model, u) if u.dtype == object else []
-
-
 def in_turned_axes(model: Model, v: Array, u: Array) -> Array:
     """Return the velocity v in the axes of what slides and turns after it has turned by its part of u."""
-    asked = Quantity("turned", ("v", "a"), lambda v, u: (turned(model, v, u), watched(model, u)))
+    asked = Quantity("turned", ("v", "a"), lambda v, u: (turned(model, v, u), []))
     there: Array = cached_program(model, ("turned", u.dtype), u.dtype, lambda: [asked], single=True)(v, u)
     return there
 

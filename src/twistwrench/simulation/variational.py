@@ -32,7 +32,7 @@ from ..spatial._quaternions import exp_quaternion
 from ..spatial.exponential import shift
 from ..spatial.rotation import cross_matrix, quaternion_matrix
 from .divergence import DivergenceError, check_divergence, check_turn
-from .straight import go_straight, in_turned_axes, shifted_and_turned, sliding, turned, turning, watched
+from .straight import go_straight, in_turned_axes, shifted_and_turned, sliding, turned, turning
 from .system import System
 
 __all__ = ["bracket", "middle", "momenta", "momentum_and_force", "variational"]
@@ -116,7 +116,7 @@ def middle(model: Model, q: Array, u: Array, xi: Array) -> tuple[Array, Array, A
             S = joint.subspace(u.dtype)
             along, p = np.matvec(S[3:], v[..., s]), np.matvec(S[3:], mu[..., s])
             force[..., s] -= np.matvec(S.mT[:, :3], np.matvec(cross_matrix(along), p))
-        return np.concatenate([there, v, turned(model, mu, -u), turned(model, force, -u)], axis=-1), watched(model, u)
+        return np.concatenate([there, v, turned(model, mu, -u), turned(model, force, -u)], axis=-1), []
 
     asked = Quantity("middle", ("q", "v", "a"), terms)
     found = cached_program(model, ("middle", u.dtype), u.dtype, lambda: [asked], single=True)(q, u, xi)
@@ -225,7 +225,7 @@ def momenta(model: Model, u: Array, p0: Array, impulse: Array) -> tuple[Array, A
                 along = np.matvec(slide, mu[..., s]), np.matvec(back @ back, np.matvec(slide, end[..., s]))
                 mu[..., s] = np.matvec(turn.mT, mean) + np.matvec(slide.mT, along[0])
                 end[..., s] = np.matvec(turn.mT, np.matvec(back, P1)) + np.matvec(slide.mT, along[1])
-        return np.concatenate([mu, end], axis=-1), watched(model, u)
+        return np.concatenate([mu, end], axis=-1), []
 
     asked = Quantity("momenta", ("v", "a", "tau"), both)
     found = cached_program(model, ("momenta", u.dtype), u.dtype, lambda: [asked], single=True)(u, p0, impulse)

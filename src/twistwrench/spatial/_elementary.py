@@ -2,10 +2,13 @@
 
 All are analytic: a complex argument gives the complex value, so that a complex step differentiates
 what is built on them. The real part alone decides which formula is used. Numbers that are objects, as a program's
-recorder passes them, cannot be asked how large they are: for them there is the series alone, good below 1.
+recorder passes them, cannot be asked how large they are, but they write down a choice: both formulas are computed.
 """
 
 from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -14,15 +17,22 @@ from ..arrays import Array, elementary, resolution
 __all__ = [
     "at_first_index",
     "atan2",
+    "chosen",
     "cos",
     "cosine_defect",
     "largest",
     "length",
+    "nonzero",
     "sin",
     "sinc",
     "sine_defect_root",
     "sqrt",
 ]
+
+
+TINY = Fraction(1, 2**100)
+"""What is added to the square of a recorded length, which nobody can ask whether it is 0: no function of an angle that
+is even changes by it in its last digit."""
 
 
 def cos(x: Array) -> Array:
@@ -49,9 +59,12 @@ def _map(x: Array, name: str) -> Array:
 
 
 def length(x: Array) -> Array:
-    """Return the Euclidean length over the last axis, no conjugate: infinite only where it is beyond all numbers."""
+    """Return the Euclidean length over the last axis, no conjugate: infinite only where it is beyond all numbers.
+
+    Of numbers that are objects it is never 0, but at least the root of `TINY`.
+    """
     if x.dtype == object:
-        return sqrt(np.asarray((x * x).sum(-1), object))
+        return sqrt(np.asarray((x * x).sum(-1) + TINY, object))
     size = np.maximum(largest(x.real, 1), largest(x.imag, 1))
     exponent = np.frexp(np.maximum(size, np.finfo(x.dtype).tiny))[1] - 1
     unit = np.ldexp(np.ones((), size.dtype), exponent)  # a power of two: dividing by it is exact
@@ -60,10 +73,28 @@ def length(x: Array) -> Array:
         return np.asarray(unit * np.sqrt((scaled * scaled).sum(-1)))
 
 
+def nonzero(x: Array) -> Array:
+    """Return lengths, 1 where they are 0: what they divide is 0 there. Of objects they never are, see `length`."""
+    return x if x.dtype == object else np.where(x == 0, 1, x)
+
+
+def chosen(x: Array, a: Array, b: Array) -> Array:
+    """Return a where x, or its real part, is above 0, and b elsewhere; numbers that are objects write that down."""
+    if x.dtype != object:
+        return np.where(x.real > 0, a, b)
+    return np.asarray(np.frompyfunc(_chosen, 3, 1)(x, a, b), object)
+
+
+def _chosen(x: Any, a: Any, b: Any) -> Any:
+    if hasattr(x, "select"):
+        return x.select(a, b)
+    return a if x > 0 else b
+
+
 def sinc(x: Array) -> Array:
-    """Return sin x / x, and 1 at 0."""
+    """Return sin x / x, and 1 at 0; of objects x is a `length`."""
     if x.dtype == object:
-        return series(x, 2, 3, resolution(x.dtype))
+        return np.asarray(sin(x) / x, object)
     safe = np.where(x == 0, 1, x)
     return np.where(x == 0, 1, np.sin(safe) / safe)
 
@@ -73,33 +104,34 @@ def sine_defect_root(x: Array) -> Array:
 
     The root, about 1/x, since the quotient itself is lost where x³ overflows.
     """
-    if x.dtype == object:
-        return sqrt(series(x, 4, 5, resolution(x.dtype)) / 6)
-    small = np.abs(x.real) < 1
-    near = np.where(small, x, 0)
-    far = np.where(small, 1, x)
-    return np.where(
-        small, np.sqrt(series(near, 4, 5, resolution(x.dtype)) / 6), np.sqrt((far - np.sin(far)) / far) / far
-    )
+    small, near, far = _parted(x)
+    return chosen(small, sqrt(series(near, 4, 5) / 6), sqrt((far - sin(far)) / far) / far)
 
 
 def cosine_defect(x: Array) -> Array:
     """Return (sin x − x cos x)/x³, which is 1/3 at 0: its series below 1, where the difference would cancel."""
-    small = np.abs(x.real) < 1
-    near = np.where(small, x, 0)
-    far = np.where(small, 1, x)
-    return np.where(small, series(near, 2, 5, resolution(x.dtype)) / 3, (np.sin(far) - far * np.cos(far)) / far**3)
+    small, near, far = _parted(x)
+    return chosen(small, series(near, 2, 5) / 3, (sin(far) - far * cos(far)) / (far * far * far))
 
 
-def series(x: Array, a: int, b: int, eps: float) -> Array:
-    """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)) for |x| ≤ 1, with all terms that reach a quarter of eps."""
+def _parted(x: Array) -> tuple[Array, Array, Array]:
+    """Return what is above 0 where |x| < 1, and x for the two formulas, a harmless number where it is the other's."""
+    small = 1 - (x if x.dtype == object else np.abs(x.real))
+    return small, chosen(small, x, np.zeros_like(x)), chosen(small, np.ones_like(x), x)
+
+
+def series(x: Array, a: int, b: int) -> Array:
+    """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)) for |x| ≤ 1, with all terms that count in its last digit."""
+    eps = resolution(x.dtype)
     terms, left = 0, 1.0
-    while left > eps / 4 or terms < 15:
+    while left > eps / 4 or (terms < 15 and x.dtype != object):
         left = left / ((a + 2 * terms) * (b + 2 * terms))
         terms = terms + 1
     total = np.ones_like(x)
     for k in range(2 * terms - 2, -1, -2):
-        total = 1 - x * x / ((a + k) * (b + k)) * total
+        divisor = (a + k) * (b + k)
+        part = x * x * Fraction(1, divisor) if x.dtype == object else x * x / divisor
+        total = 1 - part * total
     return total
 
 
@@ -110,7 +142,7 @@ def atan2(s: Array, c: Array) -> Array:
     first-order change (c ds − s dc)/(c² + s²), which is all that a complex step needs.
     """
     if s.dtype.kind != "c":
-        return np.asarray(np.arctan2(s, c))
+        return np.asarray(np.arctan2(s, c), s.dtype)
     change = (c.real * s.imag - s.real * c.imag) / (c.real**2 + s.real**2)
     return np.asarray(np.arctan2(s.real, c.real) + 1j * change)
 

@@ -1,4 +1,4 @@
-"""Quaternions where a rotation matrix would be a detour: steps and their sums, and rotations as fractions (49.2)."""
+"""Quaternions where a rotation matrix would be a detour: steps, sums and differences, exact rotations (49.2)."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from fractions import Fraction
 import numpy as np
 
 from ..arrays import Array, convert
-from ._elementary import cos, length, sinc
-from .rotation import cross_matrix, quaternion_matrix, rotation_to_quaternion, skew_part
+from ._elementary import chosen, cos, length, sinc
+from .rotation import cross_matrix, quaternion_matrix, rotation_to_quaternion, rotation_vector, skew_part
 
-__all__ = ["exact_rotation", "exp_quaternion", "quaternion_product"]
+__all__ = ["exact_rotation", "exp_quaternion", "quaternion_product", "turn_between"]
 
 
 def exp_quaternion(w: Array) -> Array:
@@ -27,6 +27,23 @@ def quaternion_product(p: Array, q: Array) -> Array:
     q0 = q[..., 3:]
     turned = p0 * u + q0 * w + np.matvec(cross_matrix(w), u)
     return np.concatenate([turned, p0 * q0 - (w * u).sum(-1, keepdims=True)], axis=-1)
+
+
+def turn_between(p: Array, q: Array) -> Array:
+    """Return the rotation vector that leads from one quaternion to another, log3 of p⁻¹ q: a turn of at most π.
+
+    Of q and −q, the same turn, the one closer to p counts. With d = q − p the vector part is that of p⁻¹ d, since p⁻¹ p
+    has none: so a small turn keeps all digits that p and q have of it. Of half a turn, where both signs of the axis are
+    right, the largest component is positive, as in `log3`.
+    """
+    cosine = (p * q).sum(-1, keepdims=True)
+    d = chosen(-cosine, -q, q) - p
+    xyz = p[..., 3:] * d[..., :3] - d[..., 3:] * p[..., :3] - np.matvec(cross_matrix(p[..., :3]), d[..., :3])
+    w = chosen(-cosine, -cosine, cosine)
+    x, y, z = xyz[..., :1], xyz[..., 1:2], xyz[..., 2:]
+    most = chosen(y * y - x * x, y, x)
+    most = chosen(z * z - most * most, z, most)
+    return rotation_vector(chosen(w, xyz, chosen(-most, -xyz, xyz)), w)
 
 
 def exact_rotation(R: Array) -> Array:

@@ -87,11 +87,16 @@ def log6(T: SE3 | ArrayLike) -> Array:
     array([0., 0., 3., 1., 0., 0.])
     """
     T = T if isinstance(T, SE3) else SE3.from_matrix(T)
-    w, p = log3(T.rotation), T.translation
+    w = log3(T.rotation)
+    return np.concatenate([w, unshift(w, T.translation)], axis=-1)
+
+
+def unshift(w: Array, p: Array) -> Array:
+    """Return the linear part of log6, of a rotation vector and a translation: what `shift` leads to p."""
     half = length(w)[..., None] / 2
-    D = cosine_defect(half) / (4 * sinc(half))
-    wp = np.cross(w, p)
-    return np.concatenate([w, p - wp / 2 + D * np.cross(w, wp)], axis=-1)
+    D = cosine_defect(half) / sinc(half)  # 4 D
+    wp = np.cross(w / 2, p)
+    return np.asarray(p - wp + D * np.cross(w / 2, wp))
 
 
 def interpolate(T0: SE3, T1: SE3, u: ArrayLike) -> SE3:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array, check_choice, check_overflow
-from ._elementary import cosine_defect, length, sinc, sine_defect_root
+from ._elementary import cosine_defect, length, nonzero, sinc, sine_defect_root
 from ._vector import as_spatial
 from .exponential import log6
 from .plucker import SE3, blocks
@@ -125,8 +125,7 @@ def Jexp6(V: ArrayLike, side: Side = "right") -> Array:
     """
     V = _on(side, as_array(as_spatial(V, "V"), "V", 6))
     check_overflow(length(V[..., :3]), "V")
-    J, Q = _right_jacobian(V[..., :3]), _change(V[..., :3], V[..., 3:])
-    return blocks(J, np.zeros_like(J), Q, J)
+    return exp6_jacobian(V)
 
 
 def Jlog6(T: SE3 | ArrayLike, side: Side = "right") -> Array:
@@ -157,7 +156,17 @@ def Jlog6(T: SE3 | ArrayLike, side: Side = "right") -> Array:
            [ 0. ,  0. , -0.5],
            [ 0. ,  0.5,  0. ]])
     """
-    V = _on(side, log6(T))
+    return log6_jacobian(_on(side, log6(T)))
+
+
+def exp6_jacobian(V: Array) -> Array:
+    """Return J of `Jexp6`, on the right: arithmetic alone."""
+    J, Q = _right_jacobian(V[..., :3]), _change(V[..., :3], V[..., 3:])
+    return blocks(J, np.zeros_like(J), Q, J)
+
+
+def log6_jacobian(V: Array) -> Array:
+    """Return J of `Jlog6`, on the right, of V = log6(T): arithmetic alone."""
     J, Q = _right_inverse(V[..., :3]), _change(V[..., :3], V[..., 3:])
     return blocks(J, np.zeros_like(J), -J @ Q @ J, J)
 
@@ -179,9 +188,9 @@ def _right_jacobian(w: Array) -> Array:
 def _right_inverse(w: Array) -> Array:
     """Return 1 + ½[w]× + D[w]×², with D as in `log6`."""
     half = length(w)[..., None, None] / 2
-    W = cross_matrix(w)
-    D = cosine_defect(half) / (4 * sinc(half))
-    return np.asarray(np.eye(3, dtype=w.dtype) + W / 2 + D * (W @ W))
+    W = cross_matrix(w / 2)
+    D = cosine_defect(half) / sinc(half)
+    return np.asarray(np.eye(3, dtype=w.dtype) + W + D * (W @ W))
 
 
 def _change(w: Array, v: Array) -> Array:
@@ -192,9 +201,9 @@ def _change(w: Array, v: Array) -> Array:
     theta = length(w)[..., None, None]
     W = cross_matrix(w)
     V = cross_matrix(v)
-    n = w / np.where(theta == 0, 1, theta)[..., 0]
+    n = w / nonzero(theta)[..., 0]
     N = cross_matrix(n)
-    n_v = (n * v).sum(-1)[..., None, None]
+    n_v = (n * v).sum(-1, keepdims=True)[..., None]
     H, c = sinc(theta / 2) / 2, sine_defect_root(theta)
     A = sinc(theta)
     B = 2 * H * H

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array, as_number_array, check_overflow, comparable, tolerance
 from ..errors import ShapeError, SingularError
-from ._elementary import at_first_index, atan2, largest, length, sinc
+from ._elementary import at_first_index, atan2, largest, length, nonzero, sinc
 from .orthonormal import check_rotation
 
 __all__ = [
@@ -149,11 +149,7 @@ def log3(R: ArrayLike) -> Array:
     array([0., 3., 0.])
     """
     q = rotation_to_quaternion(R)
-    xyz = q[..., :3]
-    w = q[..., 3:]
-    n = length(xyz)[..., None]
-    ratio = np.where(n == 0, 2, 2 * atan2(n, w) / np.where(n == 0, 1, n))
-    return np.asarray(xyz * ratio)
+    return rotation_vector(q[..., :3], q[..., 3:])
 
 
 def quaternion_to_rotation(xyzw: ArrayLike) -> Array:
@@ -233,6 +229,13 @@ def turn_matrix(w: Array) -> Array:
     check_overflow(theta, "w")
     A, H = sinc(theta), sinc(theta / 2) / 2
     return np.asarray(np.eye(3, dtype=w.dtype) + A * W + 2 * (H * W) @ (H * W))
+
+
+def rotation_vector(xyz: Array, w: Array) -> Array:
+    """Return the rotation vector of a quaternion (xyz, w) of any length with w ≥ 0: the formula of `log3`."""
+    n = length(xyz)[..., None]
+    ratio = 2 * atan2(n, w) / nonzero(n)
+    return np.asarray(xyz * (ratio if n.dtype == object else np.where(n == 0, 2, ratio)))
 
 
 def quaternion_matrix(q: Array) -> Array:
