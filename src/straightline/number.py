@@ -232,7 +232,10 @@ class Number:
 
 
 def select(x: Any, a: Any, b: Any) -> Any:
-    """Return a where x > 0, b elsewhere, of numbers and constants; what is not chosen may be infinite, or no number.
+    """Return a where x > 0, b elsewhere, of numbers and constants.
+
+    What is not chosen may be infinite or not a number. But plain Python stops at a quotient by 0 and at the root of a
+    negative number, wherever they are: a formula should be given a harmless number where it is not chosen.
 
     >>> x = Tape().input("x")
     >>> select(x, 1, x), select(ONE, x, 2 * x) is x

@@ -247,6 +247,35 @@ def test_random_configurations_respect_the_limits_and_are_finite_without(joint):
             assert np.allclose((q[:, joint.unit] ** 2).sum(-1), 1.0, rtol=0, atol=1e-14)
 
 
+@every_joint
+def test_many_are_drawn_at_once_as_one_by_one(joint):
+    """Each entry of q has the same distribution: here its quantiles."""
+    free = np.full(joint.nq, 0.5)
+    one_by_one = np.array([joint.random(np.random.default_rng(k), -free, free) for k in range(2000)])
+    at_once = joint.random(np.random.default_rng(7), -free, free, (40, 50))
+    assert at_once.shape == (40, 50, joint.nq)
+    quantiles = [np.quantile(q.reshape(2000, -1), [0.1, 0.3, 0.5, 0.7, 0.9], axis=0) for q in (one_by_one, at_once)]
+    np.testing.assert_allclose(*quantiles, rtol=0, atol=0.1)
+    if joint.unit is not None:
+        np.testing.assert_allclose((at_once[..., joint.unit] ** 2).sum(-1), 1, rtol=0, atol=1e-14)
+
+
+def test_a_model_draws_any_batch_and_one_as_it_always_did():
+    model = tw.load("go2")
+    for size, shape in (((), (19,)), (0, (0, 19)), (3, (3, 19)), ((2, 3), (2, 3, 19)), ([2], (2, 19))):
+        q = model.random_configuration(size, rng=1)
+        assert q.shape == shape
+        assert ((model.lower <= q) & (q <= model.upper)).all()
+    joints = [joint for joint in model.joints if joint]
+    rng = np.random.default_rng(1)
+    parts = [j.random(rng, model.lower[s], model.upper[s]) for j, s in zip(joints, model.q_slice[1:])]
+    np.testing.assert_array_equal(model.random_configuration(rng=1), np.concatenate(parts))
+    assert len({*model.random_configuration(100, rng=1)[:, 7]}) == 100
+    for wrong in (-1, 1.5, (2, -1), "3"):
+        with pytest.raises(ValueError, match="size"):
+            model.random_configuration(wrong)
+
+
 def test_random_turns_favour_no_direction():
     # The mean of R over all rotations is 0; over N draws it is about 1/√(3N).
     rng, joint = np.random.default_rng(6), tw.Spherical()

@@ -12,6 +12,7 @@ from straightline import BackEnd, Tape, c_source, double_double, numbers, python
 from straightline import extension as interpreter
 from straightline.line import Line
 from straightline.llvm import available, default_backend
+from straightline.number import select
 from straightline.outputs import check_outputs
 from straightline.source import Note
 from straightline.tangent import directions, jacobian
@@ -144,3 +145,71 @@ def test_constants_are_fractions():
     assert straight_line(lambda x: x * Fraction(1, 3), x=()).operations.total() == 1
     with pytest.raises(TypeError):
         straight_line(lambda x: x * 0.1, x=())
+
+
+# ---------------------------------------------------------------- choices and angles
+
+ANGLE = straight_line(lambda p: np.arctan2(p[1], p[0]), p=(2,))
+HARD = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1e-300), (-1, 1e-300), (1e-300, 1)]
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32], ids=["double", "single"])
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_the_angle_of_a_point_is_right_to_two_roundings(backend, dtype):
+    rng = np.random.default_rng(0)
+    near = np.tan(np.pi / 8 * np.arange(-8, 9))[:, None] * (1 + rng.uniform(-1e-6, 1e-6, 17))[:, None]
+    points = [
+        np.array(HARD),
+        np.concatenate([np.ones((17, 1)), near], axis=1),
+        rng.standard_normal((2000, 2)) * 10.0 ** rng.integers(-10, 3, (2000, 2)),
+    ]
+    p = np.concatenate(points).astype(dtype)
+    found = BackEnd(ANGLE, np.dtype(dtype), backend).results({"p": p}, (len(p),))["y"]
+    expected = np.arctan2(*p.astype(np.longdouble).mT[::-1])
+    np.testing.assert_allclose(found, expected, rtol=2 * np.finfo(dtype).eps, atol=np.finfo(dtype).tiny)
+
+
+def branches(x):
+    """Return |x|, the root of x where it is above 0 and 0 elsewhere, and a constant by the sign of x."""
+    above = select(x[0], x[0], 0)
+    return np.array([select(x[0], x[0], -x[0]), np.sqrt(above), select(x[0], Fraction(1, 3), -2)], object)
+
+
+def test_of_two_numbers_one_is_chosen_and_the_other_may_be_anything():
+    x = np.array([[2.0], [-2.0], [0.0], [1e308], [-np.inf], [np.nan]])
+    line = straight_line(lambda x: np.array([*branches(x), select(x[0], 1, x[0] * 10**200 * 10**200)]), x=(1,))
+    expected = [np.where(x > 0, x, -x), np.sqrt(np.where(x > 0, x, 0)), np.where(x > 0, 1 / 3, -2)]
+    for backend in ("numpy", *(["llvm"] if available() else [])):
+        for count in (1, len(x)):
+            found = BackEnd(line, DOUBLE, backend).results({"x": x[:count]}, (count,))["y"]
+            np.testing.assert_array_equal(found[:, :3], np.concatenate(expected, axis=1)[:count])
+    names = {}
+    exec(python_source(straight_line(branches, x=(1,)), "branches"), names)
+    assert [names["branches"]([one]) for one in (4.0, -4.0)] == [[4.0, 2.0, 1 / 3], [4.0, 0.0, -2.0]]
+    assert "(x[0] > 0 ? " in c_source(straight_line(branches, x=(1,)), "branches")
+
+
+def test_choices_of_different_numbers_are_different():
+    line = straight_line(lambda x: np.array([select(x[0], x[1], x[2]), select(x[0], x[3], x[2])]), x=(4,))
+    y = BackEnd(line, DOUBLE, "numpy").results({"x": np.array([[1.0, 2, 3, 4]])}, (1,))["y"]
+    assert y.tolist() == [[2, 4]]
+    turned = straight_line(lambda x: select(x[0], np.cos(x[1]), x[2]) - select(x[0], np.sin(x[1]), x[2]), x=(3,))
+    assert turned.operations.total() == 5
+
+
+def test_choices_and_angles_have_derivatives():
+    tape = Tape()
+    x = numbers(tape, "x", 2)
+    results = np.array([np.arctan2(x[0], x[1]), select(x[0] - x[1], x[0] * x[1], 3 * x[1]), select(x[0], 1, x[0])])
+    J = jacobian(tape, results, directions(x), 2)
+    line = Line.of(tape, {"x": (2,)}, {"J": J})
+    at = np.array([[3.0, 4.0], [4.0, 3.0], [-1.0, 2.0]])
+    found = BackEnd(line, DOUBLE, "numpy").results({"x": at}, (3,))["J"]
+    expected = [[[b / (a * a + b * b), -a / (a * a + b * b)], [b, a] if a > b else [0, 3], [0 if a > 0 else 1, 0]]
+                for a, b in at]  # fmt: skip
+    np.testing.assert_allclose(found, expected, rtol=1e-15)
+
+
+def test_pairs_of_doubles_refuse_a_choice_by_name():
+    with pytest.raises(NotImplementedError, match="'select' of pairs"):
+        double_double(straight_line(branches, x=(1,)), fma=False)

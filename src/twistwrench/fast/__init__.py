@@ -43,7 +43,7 @@ steps         q ⊕ v_dt, q₁ ⊖ q₀, their derivatives, and the way between
 >>> import twistwrench as tw
 >>> model = tw.load("go2")
 >>> rng = np.random.default_rng(0)
->>> q = np.stack([model.random_configuration(rng=rng) for _ in range(1000)])
+>>> q = model.random_configuration(1000, rng=rng)
 >>> v = rng.standard_normal((1000, model.nv))
 >>> d = tw.fast.dynamics(model, q, v)
 >>> d.M.shape, d.h.shape, d.J_c.shape, d.A_G.shape

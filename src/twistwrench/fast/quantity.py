@@ -95,7 +95,7 @@ def checked(model: Model, states: Mapping[str, Any]) -> dict[str, Array]:
     first = {} if any(name.startswith("q") for name in named) else {"q": model.neutral()}
     found = dict(zip([*first, *named], check_entries(model, **first, **named)))
     if "u" in states:
-        found = dict(zip([*found, "u"], with_number([*found.values()], [*found], states["u"], "u")))
+        found = dict(zip([*found, "u"], with_number(model, found, states["u"], "u")))
     return {name: found[name] for name in states}
 
 

@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_generator
+from ..arrays import Array, as_count, as_generator
 from ..errors import NameNotFound
 from .joint import Joint
 from .state import check_arrays, check_entries, with_number
@@ -95,8 +95,10 @@ class ConfigurationSpace:
             raise NameNotFound(f"model {self.name!r} has no standing posture; there is neutral()")
         return self.postures["standing"].copy()
 
-    def random_configuration(self, *, rng: np.random.Generator | int | None = None) -> Array:
-        """Draw a configuration.
+    def random_configuration(
+        self, size: int | tuple[int, ...] = (), *, rng: np.random.Generator | int | None = None
+    ) -> Array:
+        """Draw a configuration, or many at once.
 
         Uniform between the limits; uniform over the turns of a quaternion or a (cos, sin). A range without end, or
         one of more than 100 turns or 200 m, is cut to one turn or 2 m of it, as near to 0 as it goes: to ±π or ±1 m
@@ -104,17 +106,19 @@ class ConfigurationSpace:
 
         Parameters
         ----------
+        size : int or tuple of int
+            How many, or the batch axes. They are drawn joint by joint: others than one by one with the same seed.
         rng : numpy Generator or int, optional
             Where the randomness comes from.
 
         Returns
         -------
-        ndarray, shape (nq,)
+        ndarray, shape (*size, nq)
 
         Raises
         ------
         ValueError
-            If `rng` is neither.
+            If `rng` is neither, or `size` is not made of whole numbers of at least 0.
 
         Examples
         --------
@@ -123,11 +127,14 @@ class ConfigurationSpace:
         >>> q = model.random_configuration(rng=0)
         >>> bool(((model.lower <= q) & (q <= model.upper)).all())
         True
+        >>> model.random_configuration(1000, rng=0).shape
+        (1000, 19)
         """
         rng = as_generator(rng)
+        batch = tuple(as_count(n, "size", 0) for n in (size if isinstance(size, tuple | list) else (size,)))
         joints = zip(self.joints, self.q_slice)
-        parts = [joint.random(rng, self.lower[s], self.upper[s]) for joint, s in joints if joint]
-        return np.concatenate([np.zeros(0), *parts])
+        parts = [joint.random(rng, self.lower[s], self.upper[s], batch) for joint, s in joints if joint]
+        return np.concatenate([np.zeros((*batch, 0)), *parts], axis=-1)
 
     def integrate(self, q: ArrayLike, v_dt: ArrayLike) -> Array:
         """Go from q along v_dt: q ⊕ v_dt.
@@ -339,7 +346,8 @@ class ConfigurationSpace:
         array([[ 0. ,  0. ,  0. ],
                [ 0.5,  1. , -2. ]])
         """
-        q0, q1, u = with_number(check_entries(self, q0=q0, q1=q1), ("q0", "q1"), u, "u")
+        checked = dict(zip(("q0", "q1"), check_entries(self, q0=q0, q1=q1)))
+        q0, q1, u = with_number(self, checked, u, "u")
         return self.integrate(q0, u[..., None] * self._way(q0, q1))
 
     def distance(self, q0: ArrayLike, q1: ArrayLike) -> Array:

@@ -125,8 +125,8 @@ class Joint(ABC):
         q[..., self.unit] = unit(part / size)
         return q
 
-    def random(self, rng: np.random.Generator, lower: Array, upper: Array) -> Array:
-        """Draw a q, uniform between the limits; where they are wide, see `Model.random_configuration`."""
+    def random(self, rng: np.random.Generator, lower: Array, upper: Array, size: tuple[int, ...] = ()) -> Array:
+        """Draw q, (*size, nq), uniform between the limits; where they are wide, see `Model.random_configuration`."""
         span = np.ones(self.nq)
         if self.nq == self.nv:  # entry k of q goes along column k of S: an angle, or a length
             span[self.subspace()[:3].any(axis=0)] = np.pi
@@ -134,10 +134,10 @@ class Joint(ABC):
         wide = upper / 2 - lower / 2 > 100 * span  # halved before, so that nothing overflows
         low = np.where(wide, np.maximum(near_zero - span, lower), lower)
         high = np.where(wide, np.minimum(near_zero + span, upper), upper)
-        q = low + (high - low) * rng.random(self.nq)
+        q: Array = low + (high - low) * rng.random((*size, self.nq))
         if self.unit is not None:
-            part = rng.standard_normal(self.unit.stop - self.unit.start)  # uniform on the sphere
-            q[self.unit] = part / np.sqrt((part**2).sum())
+            part = rng.standard_normal((*size, self.unit.stop - self.unit.start))  # uniform on the sphere
+            q[..., self.unit] = part / np.sqrt((part**2).sum(axis=-1, keepdims=True))
         return q
 
 

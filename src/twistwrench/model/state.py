@@ -6,7 +6,7 @@ broadcast to one batch shape, and its quaternions have norm 1: the recursions ch
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -50,18 +50,24 @@ def check_entries(
     return tuple(np.broadcast_to(x, batch + x.shape[x.ndim - tail :]) for x, tail in zip(arrays, tails))
 
 
-def with_number(checked: Sequence[Array], names: Sequence[str], number: ArrayLike, name: str) -> tuple[Array, ...]:
+def with_number(
+    model: ConfigurationSpace, checked: Mapping[str, Array], number: ArrayLike, name: str
+) -> tuple[Array, ...]:
     """Return checked arguments with one more, which has batch axes alone, in one number type and one batch shape."""
-    x = as_array(number, name)
-    dtype = np.result_type(x, *checked)
-    batches = [*(one.shape[:-1] for one in checked), x.shape]
+    arrays = {**checked, name: as_array(number, name)}
+    batches = {one: x.shape[: x.ndim - (one != name)] for one, x in arrays.items()}
+    dtype = np.result_type(*arrays.values())
     try:
-        batch = np.broadcast_shapes(*batches)
+        batch = np.broadcast_shapes(*batches.values())
     except ValueError:
-        listed = ", ".join(f"{one} {shape}" for one, shape in zip([*names, name], batches) if shape)
+        listed = ", ".join(f"{one} {shape}" for one, shape in batches.items() if shape)
         raise ShapeError(f"batch axes do not broadcast: {listed}") from None
-    both = [np.broadcast_to(one.astype(dtype, copy=False), batch + one.shape[-1:]) for one in checked]
-    return *both, np.broadcast_to(x.astype(dtype, copy=False), batch)
+    for one, x in arrays.items():
+        wider = resolution(x.dtype) > resolution(dtype)
+        x = x.astype(dtype, copy=False)
+        x = model.normalize(x) if wider and one.startswith("q") else x
+        arrays[one] = np.broadcast_to(x, batch + x.shape[len(batches[one]) :])
+    return tuple(arrays.values())
 
 
 def in_double(model: ConfigurationSpace, q: Array) -> Array:

@@ -105,13 +105,13 @@ def sine_defect_root(x: Array) -> Array:
     The root, about 1/x, since the quotient itself is lost where x³ overflows.
     """
     small, near, far = _parted(x)
-    return chosen(small, sqrt(series(near, 4, 5) / 6), sqrt((far - sin(far)) / far) / far)
+    return chosen(small, sqrt(series(near, 4, 5, resolution(x.dtype)) / 6), sqrt((far - sin(far)) / far) / far)
 
 
 def cosine_defect(x: Array) -> Array:
     """Return (sin x − x cos x)/x³, which is 1/3 at 0: its series below 1, where the difference would cancel."""
     small, near, far = _parted(x)
-    return chosen(small, series(near, 2, 5) / 3, (sin(far) - far * cos(far)) / (far * far * far))
+    return chosen(small, series(near, 2, 5, resolution(x.dtype)) / 3, (sin(far) - far * cos(far)) / (far * far * far))
 
 
 def _parted(x: Array) -> tuple[Array, Array, Array]:
@@ -120,18 +120,15 @@ def _parted(x: Array) -> tuple[Array, Array, Array]:
     return small, chosen(small, x, np.zeros_like(x)), chosen(small, np.ones_like(x), x)
 
 
-def series(x: Array, a: int, b: int) -> Array:
-    """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)) for |x| ≤ 1, with all terms that count in its last digit."""
-    eps = resolution(x.dtype)
+def series(x: Array, a: int, b: int, eps: float) -> Array:
+    """Return 1 − x²/(a b) (1 − x²/((a+2)(b+2)) (1 − ...)) for |x| ≤ 1, with all terms that reach a quarter of eps."""
     terms, left = 0, 1.0
     while left > eps / 4 or (terms < 15 and x.dtype != object):
         left = left / ((a + 2 * terms) * (b + 2 * terms))
         terms = terms + 1
     total = np.ones_like(x)
     for k in range(2 * terms - 2, -1, -2):
-        divisor = (a + k) * (b + k)
-        part = x * x * Fraction(1, divisor) if x.dtype == object else x * x / divisor
-        total = 1 - part * total
+        total = 1 - x * x / ((a + k) * (b + k)) * total
     return total
 
 
