@@ -5,6 +5,7 @@ import pickle
 import re
 import sys
 import weakref
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -473,3 +474,11 @@ def test_more_sets_of_contacts_than_are_remembered_are_right(monkeypatch):
         J_c = fast.dynamics(model, Q, V, contacts=contacts, want={"J_c"}).J_c
         np.testing.assert_array_equal(J_c, np.concatenate([one[foot] for foot in contacts]))
     assert len(model._programs) == 3
+
+
+@pytest.mark.parametrize("page", ["README.md", "README.zh-CN.md"])
+def test_the_page_lists_what_is_fast(page):
+    text = (Path(__file__).resolve().parents[2] / "benchmarks" / page).read_text(encoding="utf-8")
+    section = text.split("\n## ")[[part.count("`d_difference`") > 0 for part in text.split("\n## ")].index(True)]
+    listed = {name for line in section.splitlines() if line.startswith("| ") for name in re.findall(r"`(\w+)`", line)}
+    assert listed == {*fast.__all__}

@@ -181,7 +181,7 @@ def interpolate(model: Model, q0: ArrayLike, q1: ArrayLike, u: ArrayLike, *, out
            [ 0.5,  1. , -2. ]])
     """
     if isinstance(u, float):
-        u = np.array(u, float)
+        u = np.full(batch, u) if (batch := getattr(q0, "shape", ())[:-1]) else np.array(u, float)
     there: Array = _result(model, ("interpolate",), ("q0", "q1", "u"), (q0, q1, u), out)
     return there
 
