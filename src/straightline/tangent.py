@@ -53,7 +53,8 @@ def _tangent(tape: Tape, nodes: Sequence[Node], k: int, known: Mapping[int, Tang
     if operation in ("input", "const") or not any(known[j] for j in places):
         return {}
     (x, dx), *others = [(nodes[j][1] if nodes[j][0] == "const" else Number(tape, j), known[j]) for j in places]
-    y, dy = others[0] if others else (None, {})
+    none: tuple[Any, Tangent] = None, {}
+    y, dy = others[0] if others else none
     match operation:
         case "add":
             return _sum(dx, dy)

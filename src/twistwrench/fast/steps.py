@@ -193,8 +193,8 @@ def _interpolated(model: Model, q0: Array, q1: Array, u: Array) -> Array:
 TEXTBOOK: dict[str, tuple[Callable[..., Array], Callable[..., Array]]] = {
     "integrate": (Model.integrate, Model._step),
     "difference": (Model.difference, Model._way),
-    "J_q": (lambda *x: Model.d_integrate(*x)[0], lambda *x: Model._d_step(*x)[0]),
-    "J_v": (lambda *x: Model.d_integrate(*x)[1], lambda *x: Model._d_step(*x)[1]),
+    "J_q": (lambda *x: Model.d_integrate(*x)[0], lambda m, q, v: m._d_step(v)[0]),
+    "J_v": (lambda *x: Model.d_integrate(*x)[1], lambda m, q, v: m._d_step(v)[1]),
     "J_0": (lambda *x: Model.d_difference(*x)[0], lambda *x: Model._d_way(*x)[0]),
     "J_1": (lambda *x: Model.d_difference(*x)[1], lambda *x: Model._d_way(*x)[1]),
     "interpolate": (Model.interpolate, _interpolated),

@@ -271,10 +271,10 @@ class ConfigurationSpace:
                [-1.,  0.,  0.],
                [ 0.,  0.,  1.]])
         """
-        return self._d_step(*check_entries(self, q=q, v_dt=v_dt))
+        return self._d_step(check_entries(self, q=q, v_dt=v_dt)[1])
 
-    def _d_step(self, q: Array, v_dt: Array) -> tuple[Array, Array]:
-        """Return the derivatives of a checked step, or of numbers that are recorded; q does not change them."""
+    def _d_step(self, v_dt: Array) -> tuple[Array, Array]:
+        """Return the derivatives of a checked step, or of numbers that are recorded: they are the same from every q."""
         slices = zip(self.joints, self.v_slice)
         return self._blocks([joint.d_integrate(v_dt[..., vs]) for joint, vs in slices if joint], v_dt)
 

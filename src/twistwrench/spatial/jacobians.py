@@ -189,7 +189,7 @@ def _right_inverse(w: Array) -> Array:
     """Return 1 + ½[w]× + D[w]×², with D as in `log6`."""
     half = length(w)[..., None, None] / 2
     W = cross_matrix(w / 2)
-    D = cosine_defect(half) / sinc(half)
+    D = cosine_defect(half) / sinc(half)  # 4 D
     return np.asarray(np.eye(3, dtype=w.dtype) + W + D * (W @ W))
 
 
