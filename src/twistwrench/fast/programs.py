@@ -43,7 +43,7 @@ MAX_ENTRIES_OF_M = 20_000  # entries of M on and below its diagonal that are not
 MAX_COMPILED_OPERATIONS = 60_000
 """Operations that are not too many for machine code, which then takes some seconds to make: NumPy does longer lines."""
 
-MAX_CACHED_PROGRAMS = 64  # programs that a model remembers: of gaits each set of feet is one
+MAX_CACHED_PROGRAMS = 256  # programs that a model remembers: of gaits each set of feet is one, and each frame three
 
 LOG = logging.getLogger(__name__)
 

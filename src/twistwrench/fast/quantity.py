@@ -11,7 +11,7 @@ from straightline.double_double import DoubleDouble
 
 from ..arrays import Array
 from ..errors import SingularError
-from ..model import Model, check_entries, with_number
+from ..model import Model, check_entries, check_model, with_number
 
 __all__ = [
     "ARGUMENTS",
@@ -91,6 +91,7 @@ def checked(model: Model, states: Mapping[str, Any]) -> dict[str, Array]:
         if isinstance(x, DoubleDouble):  # which NumPy takes for two states
             hint = 'a program of dtype="double-double" takes it'
             raise TypeError(f"{name}: expected an array, got a DoubleDouble; {hint}")
+    check_model(model)
     named = {name: x for name, x in states.items() if name != "u"}
     first = {} if any(name.startswith("q") for name in named) else {"q": model.neutral()}
     found = dict(zip([*first, *named], check_entries(model, **first, **named)))

@@ -34,6 +34,8 @@ def _both_ways(call: Ours) -> Ours:
 
 
 CALLS: dict[str, Ours] = {
+    "step on the manifold": lambda m, s: fast.integrate(m, s.q, s.dv),
+    "difference of two q": lambda m, s: fast.difference(m, s.q, fast.integrate(m, s.q, s.dv)),
     "inverse dynamics": lambda m, s: fast.rnea(m, s.q, s.v, s.a),
     "inverse dynamics, f_ext": lambda m, s: fast.rnea(m, s.q, s.v, s.a, s.f_ext),
     "forward dynamics": lambda m, s: fast.aba(m, s.q, s.v, s.tau),
@@ -41,6 +43,9 @@ CALLS: dict[str, Ours] = {
     "mass matrix M": lambda m, s: fast.crba(m, s.q),
     "J_c of the feet": lambda m, s: np.asarray(fast.dynamics(m, s.q, s.v, want={"J_c"}).J_c),
     "h = C v + g": lambda m, s: fast.nonlinear_effects(m, s.q, s.v),
+    "kinetic energy": lambda m, s: fast.kinetic_energy(m, s.q, s.v),
+    "potential energy": lambda m, s: fast.potential_energy(m, s.q),
+    "centre of mass": lambda m, s: fast.center_of_mass(m, s.q),
     "centroidal map A_G": lambda m, s: fast.centroidal_map(m, s.q),
 }
 
