@@ -180,3 +180,30 @@ def test_errors_name_the_argument():
         model.d_difference(model.neutral(), 2 * model.neutral())
     with pytest.raises(ValueError, match="u: expected numbers"):
         model.interpolate(model.neutral(), model.neutral(), "half")
+
+
+@pytest.mark.parametrize("kind", ["free_flyer", "planar"])
+def test_a_difference_far_from_the_origin_and_a_small_turn_keep_their_digits(kind):
+    """Positions and quaternions are subtracted first, which rounds nothing where they are close."""
+    model = tree(kind)
+    q0, _, _ = states(model, 3)
+    joint, s = model.joints[1], model.q_slice[1]
+    q0[s][: joint.unit.start] = [1e6, -3e6, 2e6][: joint.unit.start]
+    q1 = q0.copy()
+    q1[s.start] += 2.0**-20
+    R = joint.transform(q0[s]).rotation
+    expected = joint.subspace().mT @ np.concatenate([np.zeros(3), R[0] * 2.0**-20])
+    np.testing.assert_allclose(model.difference(q0, q1)[model.v_slice[1]], expected, rtol=0, atol=1e-21)
+    q1 = q0.copy()
+    k = s.start + joint.unit.start
+    q1[k] = np.nextafter(q1[k], 2)  # a turn of about 1e-16, right to all its digits
+    with mpmath.workdps(50):
+        a, b = (slow.as_mpmath(q[s][joint.unit]) for q in (q0, q1))
+        if kind == "planar":
+            turn = mpmath.atan2(a[0] * b[1] - a[1] * b[0], a @ b)
+            ours = model.difference(q0, q1)[model.v_slice[1]][2]
+            assert abs(ours - turn) < 1e-15 * abs(turn)
+        else:
+            turn = 2 * (a[3] * b[:3] - b[3] * a[:3] - slow.bodies.cross(a[:3], b[:3])) / (a @ a)
+            ours = model.difference(q0, q1)[model.v_slice[1]][:3]
+            assert abs(ours - turn).max() < 1e-15 * abs(turn).max()
