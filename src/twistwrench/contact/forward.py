@@ -24,7 +24,9 @@ from ..fast.steps import integrate
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
+from .calls import ContactProgram, contact_program, is_programmed, known_program, stacked
 from .decomposition import decompose
+from .programs import Solution, held_equations, hit_equations
 from .rows import as_contacts, contact_errors, contact_terms, given_motion, per_contact, real_state
 from .types import Contact
 
@@ -168,8 +170,60 @@ def contact_forward_dynamics(
     >>> held.qdd[5].round(3), int(held.rank), int(held.redundant)
     (np.float64(-9.92), 12, 0)
     """
+    if f_ext is None and stabilise is None:
+        known = known_program(model, "held", contacts)
+        x = known.one(q, v, tau) if known else None
+        if x is not None:
+            return held_by_program(known, x, np.array(known.dim))
     contacts = as_contacts(model, contacts)
     q, v, others = real_state(model, q, f_ext, v=v, tau=tau)
+    if stabilise is None and is_programmed(model, contacts):
+        program = held_program(model, contacts)
+        x = program(q, v, **others)
+        if x is not None:
+            return held_by_program(program, x, x[..., -1].astype(int))
+    return held_by_decomposition(model, contacts, q, v, others, stabilise)
+
+
+def held_program(model: Model, contacts: tuple[Contact, ...]) -> ContactProgram:
+    """Return the program of the acceleration of contacts that hold: q̈, λ, slip, residual and rank."""
+
+    def more(found: Solution, v: Array) -> list[Array]:
+        J, bias = found.rows.J, found.rows.bias
+        return [np.matvec(J, v), np.matvec(J, found.motion) + bias, np.array([len(J)], object)]
+
+    def textbook(q: Array, v: Array, tau: Array, *f_ext: Array) -> Array:
+        others = {"tau": tau} | ({"f_ext": f_ext[0]} if f_ext else {})
+        d = held_by_decomposition(model, contacts, q, v, others)
+        return stacked(d.qdd, *d.forces.values(), d.slip, d.residual, d.rank[..., None])
+
+    return contact_program(model, "held", contacts, held_equations, more, textbook)
+
+
+def held_by_program(program: ContactProgram, x: Array, rank: Array) -> ContactDynamics:
+    """Return what a program has found as the function does."""
+    m = program.dim
+    made = object.__new__(ContactDynamics)  # whose own way, entry by entry, takes as long as the program
+    vars(made).update(
+        qdd=x[program.motion],
+        forces=program.forces_of(x),
+        rank=rank,
+        redundant=m - rank,
+        slip=x[..., -2 * m - 1 : -m - 1],
+        residual=x[..., -m - 1 : -1],
+    )
+    return made
+
+
+def held_by_decomposition(
+    model: Model | MimicModel,
+    contacts: Sequence[Contact],
+    q: Array,
+    v: Array,
+    others: Mapping[str, Array],
+    stabilise: Baumgarte | None = None,
+) -> ContactDynamics:
+    """Return what `contact_forward_dynamics` does, whether rows of J depend on each other or not."""
     terms = contact_terms(model, q, v, contacts, **others)
     at, J, free = terms.placement, terms.J, terms.qdd
     W = terms.W
@@ -288,9 +342,48 @@ def impact(
     """
     if not 0 <= as_number(restitution, "restitution") <= 1:
         raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
+    known = known_program(model, "hit", contacts)
+    x = known.one(q, v) if known else None
+    if x is not None:
+        return hit_by_program(known, x, restitution)
     contacts = as_contacts(model, contacts)
     q, v, _ = real_state(model, q, v=v)
+    if is_programmed(model, contacts):
+        program = hit_program(model, contacts)
+        x = program(q, v)
+        if x is not None:
+            return hit_by_program(program, x, restitution)
     return jump(model, v, contacts, contact_terms(model, q, v, contacts), restitution)
+
+
+def hit_program(model: Model, contacts: tuple[Contact, ...]) -> ContactProgram:
+    """Return the program of an impact with e = 0: v⁺, Λ, the energy lost, v and the rank."""
+
+    def more(found: Solution, v: Array) -> list[Array]:
+        lost = -(found.force * np.matvec(found.rows.J, v)).sum() / 2
+        return [v, np.array([lost, len(found.rows.J)], object)]
+
+    def textbook(q: Array, v: Array) -> Array:
+        hit = jump(model, v, contacts, contact_terms(model, q, v, contacts))
+        return stacked(hit.v, *hit.impulses.values(), v, hit.energy_lost[..., None], hit.rank[..., None])
+
+    return contact_program(model, "hit", contacts, hit_equations, more, textbook)
+
+
+def hit_by_program(program: ContactProgram, x: Array, restitution: float) -> Impact:
+    """Return what a program has found as the function does: what bounces goes on by e times the change."""
+    after = x[program.motion]
+    n = after.shape[-1]
+    if restitution:
+        after = after + restitution * (after - x[..., -n - 2 : -2])
+    rank = x[..., -1].astype(int)
+    return Impact(
+        v=after,
+        impulses={frame: (1 + restitution) * force for frame, force in program.forces_of(x).items()},
+        energy_lost=np.asarray((1 - restitution**2) * x[..., -2]),
+        rank=rank,
+        redundant=program.dim - rank,
+    )
 
 
 def jump(

@@ -11,7 +11,7 @@ kind of joint, nv columns, and neither a quaternion nor its norm is differentiat
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -30,12 +30,10 @@ from ..arrays import Array
 from ..arrays.exact import elementary
 from ..model import Model, columns, tree_terms
 from ..spatial.rotation import cross_matrix
-from .quantity import Quantity, shapes
+from .quantity import Compute, Quantity, shapes
 from .watch import pivots
 
 __all__ = ["derivatives", "of_line", "regressor", "replay", "steps"]
-
-Compute = Callable[..., tuple[Array, list[Any]]]
 
 
 def derivatives(model: Model, quantity: Quantity, dtype: np.dtype[Any]) -> Iterator[Quantity]:
@@ -46,7 +44,9 @@ def derivatives(model: Model, quantity: Quantity, dtype: np.dtype[Any]) -> Itera
     for name in quantity.arguments:
         if name != "f_ext":
             compute = of_line(model, quantity, name)
-            if quantity.symbol == "qdd":
+            if quantity.derivative:
+                compute = quantity.derivative(name)
+            elif quantity.symbol == "qdd":
                 compute = _of_acceleration(model, quantity, name, dtype)
             yield Quantity(f"d{quantity.symbol}_d{name}", quantity.arguments, compute)
 

@@ -16,6 +16,7 @@ from ..model import Model, check_entries, check_model, with_number
 __all__ = [
     "ARGUMENTS",
     "STATE",
+    "Compute",
     "Quantity",
     "by_the_textbook",
     "checked",
@@ -29,15 +30,20 @@ ARGUMENTS = ("q0", "q1", "u", *STATE, "v_dt")  # those of a program, in this ord
 CHUNK = 2**17  # states times degrees of freedom that the textbook takes at a time
 
 
+Compute = Callable[..., tuple[Array, list[Any]]]
+
+
 class Quantity(NamedTuple):
     """Something that a program can compute: the chapter's symbol, what it depends on, of `ARGUMENTS`, and how.
 
     `compute` returns an array, by the textbook's function, and what is to be watched besides: see `watch`.
+    `derivative` returns what does so for the derivative by an argument, where there is a better way than by the line.
     """
 
     symbol: str
     arguments: tuple[str, ...]
-    compute: Callable[..., tuple[Array, list[Any]]]
+    compute: Compute
+    derivative: Callable[[str], Compute] | None = None
 
 
 def shapes(model: Model) -> dict[str, tuple[int, ...]]:
