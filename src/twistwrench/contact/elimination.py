@@ -23,8 +23,8 @@ from ..model import Model, Tree
 
 __all__ = ["Elimination"]
 
-MIN_ROW_SHARE = 1e-6
-"""A row of J with less than this share of its own apparent mobility, where the others hold, is left to the textbook."""
+MIN_ROW_SHARE = 1e-3
+"""A row of J that keeps less of its mobility where the others hold is left to the textbook: a share s costs ε / s."""
 
 
 class Elimination(NamedTuple):

@@ -10,8 +10,9 @@ projection onto the contacts the same for a configuration and a velocity, whose 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,17 +21,27 @@ from ..algorithms.mimic import MimicModel
 from ..arrays import Array, as_count, as_number
 from ..errors import SingularError
 from ..fast.program import Results
+from ..fast.quantity import Quantity
 from ..fast.steps import integrate
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
 from .calls import ContactProgram, contact_program, is_programmed, known_program, stacked
 from .decomposition import decompose
-from .programs import Solution, held_equations, hit_equations
+from .programs import Solution, held_equations, held_quantities, hit_equations
 from .rows import as_contacts, contact_errors, contact_terms, given_motion, per_contact, real_state
 from .types import Contact
 
-__all__ = ["Baumgarte", "ContactDynamics", "Impact", "contact_forward_dynamics", "impact", "jump", "project_state"]
+__all__ = [
+    "Baumgarte",
+    "ContactDynamics",
+    "Impact",
+    "contact_forward_dynamics",
+    "contact_quantities",
+    "impact",
+    "jump",
+    "project_state",
+]
 
 CONTRADICTION_RTOL = 1e-8
 """Tolerance of J q̈ + J̇ v, relative to its terms; rounding stays far below."""
@@ -198,6 +209,22 @@ def held_program(model: Model, contacts: tuple[Contact, ...]) -> ContactProgram:
         return stacked(d.qdd, *d.forces.values(), d.slip, d.residual, d.rank[..., None])
 
     return contact_program(model, "held", contacts, held_equations, more, textbook)
+
+
+def contact_quantities(
+    model: Model, contacts: Sequence[Contact], dtype: np.dtype[Any], push: Callable[[Array], Array] | None = None
+) -> list[Quantity]:
+    """Return what can be compiled: q̈ and λ of contacts that hold, v⁺ and Λ where they close; see `held_quantities`."""
+
+    def held(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, Array]:
+        d = contact_forward_dynamics(model, q, v, tau if push is None else tau + push(q), contacts, *f_ext)
+        return d.qdd, stacked(np.zeros((*q.shape[:-1], 0)), *d.forces.values())
+
+    def hit(q: Array, v: Array) -> tuple[Array, Array]:
+        d = impact(model, q, v, contacts)
+        return d.v, stacked(np.zeros((*q.shape[:-1], 0)), *d.impulses.values())
+
+    return [*held_quantities(model, contacts, dtype, held, hit, push)]
 
 
 def held_by_program(program: ContactProgram, x: Array, rank: Array) -> ContactDynamics:

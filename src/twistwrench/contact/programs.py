@@ -179,8 +179,9 @@ def held_equations(
         return aba_terms(model, q, v, tau if push is None else tau + push(q), *f_ext).qdd
 
     def left(rows: ContactRows, a: Array, force: Array, q: Array, v: Array, tau: Array, *f_ext: Array) -> Array:
-        pushed = np.matvec(rows.J.mT, force) if push is None else np.matvec(rows.J.mT, force) + push(q)
-        return np.concatenate([rnea(model, q, v, a, *f_ext) - pushed - tau, np.matvec(rows.J, a) + rows.bias])
+        pushed = tau + (rows.J.mT * force).sum(axis=-1)  # also of no rows
+        unmoved = rnea(model, q, v, a, *f_ext) - (pushed if push is None else pushed + push(q))
+        return np.concatenate([unmoved, (rows.J * a).sum(axis=-1) + rows.bias])
 
     def asked(rows: ContactRows) -> Array:
         return convert(given, rows.bias.dtype) - rows.bias

@@ -24,8 +24,8 @@ from .quantity import STATE
 
 __all__ = ["compile"]
 
-FORWARD = ("qdd", "IA")
-"""What follows from forces, and would be another thing with contacts; with their derivatives."""
+FREE = ("IA",)
+"""What belongs to the free model, and would be another thing with contacts; with its derivatives."""
 
 
 class SceneLike(Protocol):
@@ -61,8 +61,9 @@ def compile(
     Parameters
     ----------
     model : Model or Scene
-        For a scene, its smallest model is compiled, with its wrenches and the rows of its contacts. Forward dynamics
-        (q̈, its derivatives, I^A) is refused for a scene with contacts, which hold it.
+        For a scene, its smallest model is compiled, with its wrenches and its contacts, which hold it: "qdd" and
+        "lambda" are those of `contact_forward_dynamics`, λ in the order of the rows of `constraint_jacobian`, "v_plus"
+        and "impulse" those of `impact`. I^A is refused, which would be another one.
     want : str or iterable of str
         Names of functions, or symbols of `quantities.SYMBOLS`. For one name the program returns an array; for several
         it returns `Results`, and what they have in common is computed once.
@@ -100,7 +101,7 @@ def compile(
     ImportError
         If a package that is asked for is not installed.
     ShapeError, TypeError, ValueError
-        If an option is not one of those above; for forward dynamics of a scene with contacts.
+        If an option is not one of those above; for I^A of a scene with contacts.
 
     Examples
     --------
@@ -163,7 +164,7 @@ def _program(
     known = of_scene(dtype, frames, reference) if of_scene else quantities(body, dtype, held, frames, reference)
     wanted = chosen(known, (asked,) if isinstance(asked, str) else asked)
     if of_scene is not None and model.contacts:
-        _refuse_forward(wanted)
+        _refuse_free(wanted)
     given = _checked(body, given)
     return Program(
         body,
@@ -176,13 +177,11 @@ def _program(
     )
 
 
-def _refuse_forward(wanted: Iterable[Quantity]) -> None:
-    """Raise ValueError for what follows from forces by the free model alone, in a scene whose contacts hold it."""
+def _refuse_free(wanted: Iterable[Quantity]) -> None:
+    """Raise ValueError for what a model has only where it is free, in a scene whose contacts hold it."""
     for symbol in (quantity.symbol for quantity in wanted):
-        if symbol in FORWARD or symbol.startswith(tuple(f"d{forward}_d" for forward in FORWARD)):
-            hint = (
-                "tw.contact_forward_dynamics has the accelerations, tw.compile(scene.model, …) those without contacts"
-            )
+        if symbol in FREE or symbol.startswith(tuple(f"d{free}_d" for free in FREE)):
+            hint = "tw.compile(scene.model, …) has that of the free robot"
             raise ValueError(f"{symbol}: expected a scene without contacts, which a program would ignore here; {hint}")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from ..algorithms.rnea import gravity, nonlinear_effects, rnea
 from ..algorithms.whole_body import QUANTITIES, Dynamics
 from ..arrays import Array, convert
 from ..contact import Contact
+from ..contact.forward import contact_quantities
 from ..fast.programs import ASKED, cached_program, states_of
 from ..fast.quantities import Quantity, quantities
 from ..fast.watch import with_watch
@@ -54,22 +56,18 @@ def scene_quantities(
 ) -> dict[str, Quantity]:
     """Return what can be computed of a scene, by symbol: of its model, with the rows of its contacts and its wrenches.
 
-    Derivatives of q̈ are made of those of τ without wrenches; a scene that has wrenches does not offer them.
+    q̈ is that under its contacts; λ, v⁺ and the impulse are there where it has some.
     """
     free = quantities(model, dtype)
-
-    def accelerated(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, list[Any]]:
-        return free["qdd"].compute(q, v, tau + push(model, wrenches, q), *f_ext)
-
+    held = contact_quantities(model, contacts, dtype, partial(push, model, wrenches) if wrenches else None)
     pushed = [
         Quantity("h", ("q", "v"), lambda q, v: (nonlinear_effects(model, q, v) - push(model, wrenches, q), [])),
         Quantity("g", ("q",), lambda q: (gravity(model, q) - push(model, wrenches, q), [])),
         Quantity("tau", free["tau"].arguments, lambda q, *rest: (rnea(model, q, *rest) - push(model, wrenches, q), [])),
-        Quantity("qdd", free["qdd"].arguments, accelerated),
     ]
     rows = Quantity("J_c", ("q",), lambda q: with_watch(contact_jacobian(model, q, contacts), contacts))
-    known = quantities(model, dtype, (), frames, reference, instead=[rows, *(pushed if wrenches else [])])
-    return {name: quantity for name, quantity in known.items() if not (wrenches and name.startswith("dqdd_"))}
+    instead = [rows, *(pushed if wrenches else []), *(held if contacts else held[:1] if wrenches else [])]
+    return quantities(model, dtype, (), frames, reference, instead=instead)
 
 
 def push(model: Model, wrenches: Mapping[str, Array], q: Array) -> Array:
