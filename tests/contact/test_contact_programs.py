@@ -214,7 +214,7 @@ def test_derivatives_are_those_of_complex_steps(name):
 
 @pytest.mark.parametrize("name", sampled(["a leg", "Go2 on four feet", "humanoid on two soles"], 1))
 def test_derivatives_are_pinocchios_along_what_the_contacts_allow(name):
-    """Pinocchio counts J v in axes that turn with the robot: both agree along changes that keep the contacts at rest."""
+    """Pinocchio counts J v in axes that turn with the robot: both agree where the contacts stay at rest."""
     model, q, v, tau, contacts = state(name)
     v = tw.impact(model, q, v, contacts).v
     got = tw.compile(tw.Scene(model, contacts=contacts), WANT, backend="numpy")(q, v, tau)
