@@ -6,6 +6,7 @@ The law itself is in `coulomb`. Here it is asked of the points that the motion b
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -13,26 +14,29 @@ from ..arrays import Array
 from ..contact.decomposition import cholesky_factors
 from ..contact.qp import LIMIT_RTOL, least_with_multipliers
 from ..model import Model
-from .coulomb import TARGET_RTOL, CoulombLaw, solve
+from .coulomb import TARGET_RTOL, CoulombLaw, safe_inverse, solve
 
-__all__ = ["Metric", "Points", "StepSolution", "solve_contacts"]
+__all__ = ["Metric", "Points", "StepRows", "StepSolution", "solve_contacts"]
 
 JOIN_FACTOR = 10.0
 """Times the worst violation: rows that are so near take part in a programme from the start."""
 
 HILDRETH_SWEEPS = 200
 
+AXES = np.arange(3)
+
 
 class Metric:
-    """The metric in which velocities are near each other: kinetic energy, M = L Lᵀ.
+    """The metric in which velocities are near each other: kinetic energy, M⁻¹ = Fᵀ F with the inverse F."""
 
-    `held`, orthonormal columns in units of Lᵀ v, is what no impulse changes.
-    """
+    def __init__(self, inverse: Array) -> None:
+        self.inverse = inverse
 
-    def __init__(self, model: Model, M: Array, held: Array | None = None) -> None:
-        _, self.inverse = cholesky_factors(model, M)
-        if held is not None:
-            self.inverse = self.inverse - held @ (held.mT @ self.inverse)
+    @classmethod
+    def beside(cls, model: Model, M: Array, held: Array) -> Metric:
+        """Return the metric of what is free: `held`, orthonormal columns in units of Lᵀ v, no impulse changes."""
+        _, inverse = cholesky_factors(model, M)
+        return cls(inverse - held @ (held.mT @ inverse))
 
     def respond(self, impulse: Array) -> Array:
         """Return M⁻¹ times an impulse."""
@@ -69,9 +73,17 @@ class Metric:
 def _multipliers(A: Array, b: Array, size: float) -> Array:
     """Return the multipliers of the least z with A z ≤ b.
 
-    Where both solvers give up, Hildreth's method of 1957 has the last word: it always ends, with impulses that push and
+    Mostly all rows that are violated are met, and nothing pulls: that is a linear system, and proves itself. Where both
+    solvers give up, Hildreth's method of 1957 has the last word: it always ends, with impulses that push and
     take energy out.
     """
+    tight = b < 0
+    inverse = safe_inverse(A[tight] @ A[tight].mT)
+    if inverse is not None:
+        u = np.zeros(len(b))
+        u[tight] = -inverse @ b[tight]
+        if (u >= 0).all() and (A @ (u @ A) + b >= -LIMIT_RTOL * size).all():
+            return u
     found = least_with_multipliers(A, b, size)
     return hildreth(A, b) if found is None else found[1]
 
@@ -88,9 +100,8 @@ def hildreth(A: Array, b: Array) -> Array:
 
 @dataclass
 class Points:
-    """The points that may touch, in a step: J (k, 3, nv) of their velocities, the normal last, and what bounds them."""
+    """The points that may touch, in a step, with their axes (t, t, n): μ, and what bounds their velocities."""
 
-    J: Array
     mu: Array
     bound: Array
     """c, shape (k, 3): the velocity of the ground along it, and the least normal velocity after the step, m/s.
@@ -120,48 +131,71 @@ class StepSolution:
     """The generalized impulse of all of them, shape (nv,)."""
 
 
-def solve_contacts(
-    metric: Metric, v: Array, points: Points, others: tuple[Array, Array], before: Array
-) -> StepSolution:
+class StepRows:
+    """The rows of all points and of what else holds in a step, and W of them in a metric."""
+
+    def __init__(self, metric: Metric, J: Array, G: Array) -> None:
+        self.metric = metric
+        self.k = len(J)
+        self.A = np.concatenate([J.reshape(3 * self.k, J.shape[-1]), G])
+        self.Y = metric.inverse @ self.A.mT
+        self._known: dict[bytes, tuple[Array, Array, Array, Array | None]] = {}
+
+    @cached_property
+    def W(self) -> Array:
+        """What impulses along the rows do to the velocities along them."""
+        return np.asarray(self.Y.mT @ self.Y)
+
+    def of(self, at: Array) -> tuple[Array, Array, Array, Array | None]:
+        """Return A, Y, W and W⁻¹ of some rows: points first."""
+        key = at.tobytes()
+        if key not in self._known:
+            W = self.W[np.ix_(at, at)]
+            self._known[key] = self.A[at], self.Y[:, at], W, safe_inverse(W)
+        return self._known[key]
+
+
+def solve_contacts(rows: StepRows, v: Array, points: Points, least: Array, before: Array) -> StepSolution:
     """Return the velocity after the step, v being that of the free motion.
 
-    `others` are rows G and bounds c of what else holds, G v ≥ c; `before` (k, 3) are the impulses of the step before.
+    `least` are bounds c of what else holds, G v ≥ c; `before` (k, 3) are the impulses of the step before.
     Only points that sink without an impulse take part, and those that would sink by the impulses of the others. So
     nothing is pushed that no motion brings to the ground, even where a large μ knows an answer with a force from afar.
     """
-    J, k, (G, c) = points.J, len(points.mu), others
-    every = J.reshape(3 * k, len(v))
-    moves, more = every @ v, G @ v
-    u = moves.reshape(k, 3) - points.bound
-    rows = more - c
-    fastest = float(max(np.abs(moves).max(initial=0), np.abs(more).max(initial=0)))
-    impulse = np.zeros((k, 3))
-    pushes = np.zeros(len(c))
+    k, A = rows.k, rows.A
+    bound = np.concatenate([points.bound.ravel(), least])
+    moves = A @ v
+    u = moves - bound
+    fastest = float(np.abs(moves).max(initial=0))
+    impulse = np.zeros(len(bound))
     missed = np.zeros(k)
-    least = -TARGET_RTOL * fastest
+    sinks_by = -TARGET_RTOL * fastest
     after = v
     ends = u
     total = np.zeros_like(v)
-    joins = u[:, 2] < 0
-    joins_too = rows < 0
-    if joins.any() or joins_too.any():
-        joins |= (before[:, 2] > 0) & np.isfinite(points.bound[:, 2])
-    while joins.any() or joins_too.any():
-        at, too = np.flatnonzero(joins), np.flatnonzero(joins_too)
-        A = np.concatenate([J[at].reshape(-1, len(v)), G[too]])
-        Y = metric.inverse @ A.mT
-        law = CoulombLaw(Y.mT @ Y, np.concatenate([u[at].ravel(), rows[too]]), points.mu[at])
-        found, off = solve(law, np.concatenate([before[at].ravel(), pushes[too]]), fastest)
-        impulse[at], pushes[too], missed[at] = found[: 3 * len(at)].reshape(-1, 3), found[3 * len(at) :], off[: len(at)]
-        total = found @ A
-        after = v + metric.inverse.mT @ (Y @ found)
-        ends = (every @ after).reshape(k, 3) - points.bound
-        late = (ends[:, 2] < least) & ~joins
-        late_too = (G @ after - c < least) & ~joins_too
-        if not late.any() and not late_too.any():
+    stops = np.concatenate([np.arange(2, 3 * k, 3), np.arange(3 * k, len(bound))])  # normals, and what else holds
+    joins = u[stops] < 0
+    if joins.any():
+        joins[:k] |= (before[:, 2] > 0) & np.isfinite(points.bound[:, 2])
+    while joins.any():
+        near = np.flatnonzero(joins[:k])
+        at = np.concatenate([(3 * near[:, None] + AXES).ravel(), 2 * k + np.flatnonzero(joins)[len(near) :]])
+        A_at, Y, W, inverse = rows.of(at)
+        law = CoulombLaw(W, u[at], points.mu[near], inverse)
+        first = impulse[at]
+        first[: 3 * len(near)] = before[near].ravel()
+        found, off = solve(law, first, fastest)
+        impulse[at], missed[near] = found, off[: len(near)]
+        total = found @ A_at
+        after = v + rows.metric.inverse.mT @ (Y @ found)
+        ends = A @ after - bound
+        late = (ends[stops] < sinks_by) & ~joins
+        if not late.any():
             break
-        joins, joins_too = joins | late, joins_too | late_too
-    slides = (impulse[:, 2] > 0) & (np.sqrt((ends[:, :2] ** 2).sum(axis=-1)) > -least)
+        joins = joins | late
+    push = impulse[: 3 * k].reshape(k, 3)
+    ends = ends[: 3 * k].reshape(k, 3)
+    slides = (push[:, 2] > 0) & (np.sqrt((ends[:, :2] ** 2).sum(axis=-1)) > -sinks_by)
     slide = np.where(slides[:, None], ends[:, :2], 0)
     sinks = np.maximum(0, -ends[:, 2])
-    return StepSolution(after, after, impulse, pushes, slide, missed, sinks, fastest, total)
+    return StepSolution(after, after, push, impulse[3 * k :], slide, missed, sinks, fastest, total)

@@ -44,6 +44,9 @@ ACCEPTED_RTOL = 1e-7
 RANK_RTOL = 1e-12
 """What is smaller, relative to the largest singular value of W, is zero: four corners bear what three could."""
 
+SAFE_SHARE = 1e-6
+"""Of its own entry in W that a row must keep beside the others, so that W is inverted."""
+
 EIGHTH_TURNS_RAD = 2 * np.pi * np.arange(8) / 8
 """rad, of a turn."""
 
@@ -58,6 +61,8 @@ class CoulombLaw:
     W: Array
     u0: Array
     mu: Array
+    inverse: Array | None = None
+    """W⁻¹ where it is known: see `safe_inverse`."""
 
     @property
     def k(self) -> int:
@@ -83,6 +88,24 @@ class CoulombLaw:
         """Return u."""
         u: Array = self.u0 + self.W @ impulse
         return u
+
+    def least(self, u: Array) -> Array:
+        """Return the least x with W x nearest to u."""
+        if self.inverse is not None:
+            return self.inverse @ u
+        found: Array = np.linalg.lstsq(self.W, u, rcond=RANK_RTOL)[0]
+        return found
+
+    def bears(self, impulse: Array) -> bool:
+        """Return whether nothing of the impulses pulls, or is outside its cone."""
+        n = 3 * self.k
+        L = impulse[:n].reshape(-1, 3)
+        along = L[:, :2]
+        return bool(
+            (impulse[n:] >= 0).all()
+            and (L[:, 2] >= 0).all()
+            and (np.sqrt((along * along).sum(axis=-1)) <= self.mu * L[:, 2]).all()
+        )
 
     def missed(self, impulse: Array, u: Array) -> Array:
         """Return how far the law is missed by each point, then each row, m/s: 0 where it is fulfilled.
@@ -111,8 +134,10 @@ def solve(law: CoulombLaw, impulse: Array, size: float) -> tuple[Array, Array]:
     nothing = np.zeros(len(impulse))
     if impulse.any():
         sticks, u = stuck(law, impulse)
-        if np.abs(u).max() <= TARGET_RTOL * size and (project(law, sticks) == sticks).all():
-            return sticks, np.concatenate([np.abs(u[: 3 * law.k]).reshape(-1, 3).max(axis=-1), np.abs(u[3 * law.k :])])
+        off = np.abs(u)
+        if off.max() <= TARGET_RTOL * size and law.bears(sticks):
+            n = 3 * law.k
+            return sticks, np.concatenate([off[:n].reshape(-1, 3).max(axis=-1), off[n:]])
     best, missed = newton(law, impulse, TARGET_RTOL * size)
     if missed.max(initial=0) <= ACCEPTED_RTOL * size:
         return best, missed
@@ -139,8 +164,21 @@ def solve(law: CoulombLaw, impulse: Array, size: float) -> tuple[Array, Array]:
 
 def stuck(law: CoulombLaw, impulse: Array) -> tuple[Array, Array]:
     """Return the impulses with which every point sticks and every row is met, those nearest to others, and u."""
-    impulse = impulse - np.linalg.lstsq(law.W, law.moves(impulse), rcond=RANK_RTOL)[0]
+    impulse = impulse - law.least(law.moves(impulse))
     return impulse, law.moves(impulse)
+
+
+def safe_inverse(W: Array) -> Array | None:
+    """Return W⁻¹ where each row is safely independent of those before it; None elsewhere."""
+    try:
+        L = np.linalg.cholesky(W)
+    except np.linalg.LinAlgError:
+        return None
+    own = np.diagonal(L)
+    if not (own * own > SAFE_SHARE * np.diagonal(W)).all():
+        return None
+    Y = np.linalg.inv(L)
+    return np.asarray(Y.mT @ Y)
 
 
 def newton(law: CoulombLaw, impulse: Array, still: float) -> tuple[Array, Array]:

@@ -10,13 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import Array, as_exactly, as_number
-from ..contact import Contact, PointContact, SlidingContact, SurfaceContact
-from ..contact.rows import ContactRows, contact_rows
+from ..contact import Contact, PointContact, SlidingContact
 from ..fast.program import Results
-from ..fast.programs import cached_program
-from ..fast.quantities import Quantity, quantities
 from ..model import Model, readonly
 from ..spatial.rotation import cross_matrix
+from .programs import middle_of_step, placements_of
 
 __all__ = ["Ground", "GroundPoints", "PointTerms", "check_ground", "point_forces"]
 
@@ -104,9 +102,10 @@ def check_ground(contacts: Sequence[Contact], ground: Ground) -> None:
 
 
 class PointTerms(NamedTuple):
-    """Terms of a step at a configuration: M, and of all points the place, the height last, and the rows of J."""
+    """Terms at a configuration: M, `white` of `middle_of_step`, and of all points the place and the rows of J."""
 
     M: Array
+    white: Array
     place: Array
     rows: Array
 
@@ -122,6 +121,8 @@ class GroundPoints:
         Of each point; e is the ground's, unless its contact has its own.
     velocity : ndarray, shape (k, 3)
         Of the ground there.
+    upright : bool
+        Whether the axes of the ground are those of the world.
     """
 
     def __init__(self, model: Model, contacts: Sequence[Contact], ground: Ground) -> None:
@@ -133,62 +134,43 @@ class GroundPoints:
         every = [contacts[i] for i in self.owner]
         self.mu = np.array([c.mu for c in every])
         self._normal = np.array(ground.normal)
+        self.upright = bool((ground.axes == np.eye(3)).all())
         own = [c.restitution for c in every]
         self.restitution = np.array([ground.restitution if e is None else e for e in own], float)
         self.velocity = np.array([c.velocity[-3:] or (0, 0, 0) for c in every], float).reshape(-1, 3) @ ground.axes.mT
 
     def terms(self, q: Array) -> PointTerms:
         """Return what a step needs of q."""
-        found = self._asked(q, ("M", "frames", "moves"))
-        arms = self._arms(found.frames)
-        moves = found.moves[..., self.owner, :, :]
-        rows = moves[..., 3:, :]
+        rest = np.zeros(self.model.nv)
+        return self.terms_of(middle_of_step(self.model, self.frames, q, rest, rest, rest))
+
+    def terms_of(self, found: Results) -> PointTerms:
+        """Return what a step needs of what is known in its middle."""
+        arms = self._arms(found.frames) if self.thick else None
+        moves = found.rows[self.owner]
+        rows = moves[:, 3:]
         if self.thick:
-            rows = rows - cross_matrix(arms) @ moves[..., :3, :]
-        return PointTerms(found.M, self._place(found.frames, arms), self.ground.axes @ rows)
+            rows = rows - cross_matrix(arms) @ moves[:, :3]
+        there = found.frames[self.owner, :, 3]
+        place = there if arms is None else there + arms
+        if not self.upright:
+            rows, place = self.ground.axes @ rows, place @ self.ground.axes.mT
+        return PointTerms(found.M, found.white, place - [0.0, 0.0, self.ground.height], rows)
 
     def height(self, q: Array) -> Array:
         """Return how high the points are, shape (..., k)."""
-        frames = self._asked(q, ("frames",)).frames
-        there = frames[..., 3][..., self.owner, :]
+        return self.height_of(placements_of(self.model, self.frames, q))
+
+    def height_of(self, frames: Array) -> Array:
+        """Return how high the points are where the frames are placed so, shape (..., k)."""
+        there = frames[..., self.owner, :, 3]
         if self.thick:
             there = there + self._arms(frames)
         return np.asarray(there @ self._normal - self.ground.height)
 
-    def _place(self, frames: Array, arms: Array) -> Array:
-        there = frames[..., 3][..., self.owner, :] + arms
-        return np.asarray(there @ self.ground.axes.mT - [0.0, 0.0, self.ground.height])
-
     def _arms(self, frames: Array) -> Array:
         """Return the points from the origins of their frames, in the axes of the world."""
-        if not self.thick:
-            return np.zeros((*frames.shape[:-3], len(self.owner), 3))
         return np.concatenate([c.arms(frames[..., i, :, :3]) for i, c in enumerate(self.contacts)], axis=-2)
-
-    def _asked(self, q: Array, want: tuple[str, ...]) -> Results:
-        """Return M, the placements (..., c, 3, 4) of the frames in the world, and their rows (..., c, 6, nv)."""
-
-        def rows(q: Array) -> ContactRows:
-            every = [SurfaceContact(name, (1.0, 1.0), 0.0) for name in self.frames]  # which hold all six rows
-            return contact_rows(self.model, q, np.zeros((*q.shape[:-1], self.model.nv), q.dtype), every)
-
-        def frames(q: Array) -> Array:
-            at = [T.matrix()[..., None, :3, :] for T in rows(q).placement]
-            return np.concatenate([np.zeros((*q.shape[:-1], 0, 3, 4), q.dtype), *at], axis=-3)
-
-        def moves(q: Array) -> Array:
-            return rows(q).J.reshape(*q.shape[:-1], len(self.frames), 6, self.model.nv)
-
-        def asked() -> list[Quantity]:
-            known = {
-                "M": quantities(self.model, q.dtype)["M"],
-                "frames": Quantity("frames", ("q",), lambda q: (frames(q), [])),
-                "moves": Quantity("moves", ("q",), lambda q: (moves(q), [])),
-            }
-            return [known[name] for name in want]
-
-        found: Results = cached_program(self.model, ("ground", want, q.dtype, self.frames), q.dtype, asked)(q)
-        return found
 
 
 def point_forces(contacts: Sequence[Contact], place: Array, force: Array, ground: Ground) -> dict[str, Array]:

@@ -35,12 +35,16 @@ from ..arrays import Array
 from ..contact import Contact
 from ..contact.rows import per_contact
 from ..fast import aba
+from ..fast.program import Results
 from ..model import Model
-from .cones import Metric, Points, StepSolution, solve_contacts
+from .cones import Metric, Points, StepRows, StepSolution, solve_contacts
+from .coulomb import TARGET_RTOL
 from .divergence import DivergenceError, check_divergence
 from .ground import Ground, GroundPoints, point_forces
 from .held import Held, Rows
-from .straight import go_straight, in_turned_axes, turning
+from .programs import arrive, middle_of_step
+from .sticking import StickingStep, sticking_program
+from .straight import turning
 
 __all__ = ["Joints", "TimeStepping"]
 
@@ -60,6 +64,9 @@ MAX_START_DEPTH_M = 1e-3
 MAX_SINK_SHARE = 0.05
 """So much, relative to the fastest, a point may be too fast on its way down; beyond, nothing can keep it up."""
 
+MAX_STEADY_SPEED = 1e3
+"""m/s or rad/s: what is faster does not stand, and is looked at more closely."""
+
 RANGE_ATOL = 1e-9
 """rad or m: a joint that begins farther beyond its range is a mistake."""
 
@@ -68,11 +75,13 @@ MAX_FRICTION_ROUNDS = 20
 
 
 class StepTerms(NamedTuple):
-    """Terms of a step: of its middle M, that with damping and its metric, J and places of points; the first gaps."""
+    """Terms of a step: of its middle q, v, M, that with damping, all rows; J and places of points; the first gaps."""
 
+    q: Array
+    v: Array
     M: Array
     damped: Array
-    metric: Metric
+    every: StepRows
     J: Array
     place: Array
     gap: Array
@@ -139,8 +148,12 @@ class TimeStepping:
         self.missed: list[Array] = []
         self.fastest: list[Array] = []
         self._impulse = np.zeros((*q.shape[:-1], len(self.mu), 3))
-        self._damping = self.dt * np.diag(model.damping) if model.damping.any() else None
+        self._damping = self.dt * model.damping
+        self._damped = bool(model.damping.any())
         self._check_start(q)
+        changes = self.points.restitution.any() or self.points.velocity.any() or self._damped
+        moved_only = changes or held or self.joints.friction.size or not self.contacts
+        self._sticks = not moved_only
 
     def step(self, tau: Array, q: Array, v: Array, since: float) -> tuple[Array, Array]:
         """Make one step of each item of a batch, under the joint forces τ, and return q and v at its end.
@@ -156,18 +169,23 @@ class TimeStepping:
         pull = np.zeros((*batch, sum(c.dim for c in self.held.contacts)))
         fastest = np.zeros(batch)
         for item in np.ndindex(batch):
-            held = self.held.at(item)
-            end = since + self.dt
             q0 = q[item].copy()
             v0 = v[item].copy()
+            stuck = self.stand(tau[item], q0, v0, self._impulse[item]) if self._sticks else None
+            if stuck is not None:
+                x, q1[item], v1[item], missed[item], fastest[item] = stuck
+                self._impulse[item] = x.points[5]
+                force[item] = x.points[5] / self.dt
+                place[item] = x.place
+                continue
+            held = self.held.at(item)
+            end = since + self.dt
             found, pull[item], place[item] = self.one(tau[item].copy(), q0, v0, self._impulse[item], held, end)
             self._impulse[item], missed[item], fastest[item] = found.impulse, found.missed, found.fastest
             force[item] = found.impulse / self.dt
             slide[item] = np.sqrt((found.slide**2).sum(axis=-1))
-            straight = in_turned_axes(self.model, found.v, -self.dt / 2 * v0)  # in the axes of the beginning
-            way = straight if found.way is found.v else in_turned_axes(self.model, found.way, -self.dt / 2 * v0)
-            there, new = go_straight(self.model, q0, self.dt * way), in_turned_axes(self.model, straight, self.dt * way)
-            q1[item], v1[item] = self.settle(there, new, held, end)
+            there = arrive(self.model, self.points.frames, q0, found.v, -self.dt / 2 * v0, self.dt * found.way)
+            q1[item], v1[item] = self.settle(there, held, end)
         self.forces.append(force)
         self.places.append(place)
         self.slides.append(slide)
@@ -176,6 +194,44 @@ class TimeStepping:
         self.fastest.append(fastest)
         return q1, v1
 
+    def stand(
+        self, tau: Array, q: Array, v: Array, before: Array
+    ) -> tuple[StickingStep, Array, Array, Array, float] | None:
+        """Return a step in which all that may touch sticks, q and v at its end, how each point misses, the fastest.
+
+        None where it is another one.
+        """
+        if not (before[:, 2] > 0).all():
+            return None
+        program = sticking_program(self.model, self.points.contacts, self.ground)
+        if program is None:
+            self._sticks = False
+            return None
+        bound = np.zeros_like(before)
+        bound[:, 2] = -np.maximum(self.points.height(q), 0) / self.dt
+        results = program(q, v, tau, bound.ravel(), before.ravel(), np.array([self.dt]))
+        if results is None:
+            return None
+        found = StickingStep(*results)
+        loose, ends, pushes = found.points.reshape(3, 2, len(before), 3)
+        speeds = found.speeds[:, self.joints.at_v] * self.joints.sign
+        fastest = max(float(np.abs(loose[1] + bound).max()), float(np.abs(speeds[2]).max(initial=0)))
+        missed = np.abs(ends[1]).max(axis=-1)
+        sideways = np.sqrt((pushes[..., :2] ** 2).sum(axis=-1))
+        if not (
+            (loose[..., 2] < 0).any(axis=-1).all()
+            and (sideways <= self.mu * pushes[..., 2]).all()
+            and (pushes[0, :, 2] > 0).all()
+            and (speeds >= -np.maximum(self.joints.gap(q), 0) / self.dt).all()
+            and np.abs(ends).max() <= TARGET_RTOL * fastest
+            and np.abs(found.speeds).max() * max(1.0, self.dt) <= MAX_STEADY_SPEED
+        ):
+            return None
+        if min(found.height.min(), self.joints.gap(found.q).min(initial=0)) >= -GAP_ATOL:
+            return found, found.q, found.v, missed, fastest
+        there = arrive(self.model, self.points.frames, found.q, found.v, np.zeros_like(v), np.zeros_like(v))
+        return found, *self.settle(there, self.held, 0.0), missed, fastest
+
     def one(
         self, tau: Array, q: Array, v: Array, before: Array, held: Held, end: float
     ) -> tuple[StepSolution, Array, Array]:
@@ -183,17 +239,15 @@ class TimeStepping:
 
         Once more, where the mean of the velocities makes a difference.
         """
-        half = self.dt / 2 * v
-        middle, v = go_straight(self.model, q, half), in_turned_axes(self.model, v, half)
-        at = self.terms(q, middle)
-        mean = v
+        at = self.terms(q, v)
+        mean = v = at.v
         other = np.full_like(v, np.inf)
         for _ in range(2):
-            free = v + self.dt * (aba(self.model, middle, mean, tau) + turning(self.model, mean))
+            free = v + self.dt * (aba(self.model, at.q, mean, tau) + turning(self.model, mean))
             if np.abs(free - other).max(initial=0) <= FREE_VELOCITY_RTOL * np.abs(free).max(initial=0):
                 break
             other = free
-            rows = held.velocity_rows(middle, mean, at.damped, self.dt, end) if held.contacts else None
+            rows = held.velocity_rows(at.q, mean, at.damped, self.dt, end) if held.contacts else None
             found, pull = self.solve(at, v, free, before, rows)
             mean = (v + found.v) / 2
             before = found.impulse
@@ -202,21 +256,24 @@ class TimeStepping:
         self._check_sinking(found)
         return found, pull / self.dt, at.place
 
-    def terms(self, q: Array, middle: Array) -> StepTerms:
-        """Return what a step from q needs."""
-        terms = self.points.terms(middle)
-        damped = terms.M if self._damping is None else terms.M + self._damping
-        gap = self.points.height(q)
-        return StepTerms(terms.M, damped, Metric(self.model, damped), terms.rows, terms.place, gap, self.joints.gap(q))
+    def terms(self, q: Array, v: Array) -> StepTerms:
+        """Return what a step from q with v needs."""
+        found = middle_of_step(self.model, self.points.frames, q, v, self.dt / 2 * v, self._damping)
+        points = self.points.terms_of(found)
+        damped = points.M + np.diag(self._damping) if self._damped else points.M
+        gap = self.points.height_of(found.start)
+        ends = self.joints.gap(q)
+        every = StepRows(Metric(points.white), points.rows, self.joints.rows)
+        return StepTerms(found.q, found.v, points.M, damped, every, points.rows, points.place, gap, ends)
 
     def solve(
         self, at: StepTerms, v: Array, free: Array, before: Array, held: Rows | None
     ) -> tuple[StepSolution, Array]:
         """Return the velocity at the end of the step, from v and that of the free motion, and the impulses."""
-        gap, J, metric = at.gap, at.J, at.metric
-        loose = free = free if self._damping is None else metric.respond(at.M @ free)
+        gap, J, every = at.gap, at.J, at.every
+        loose = free = every.metric.respond(at.M @ free) if self._damped else free
         if held is not None:
-            metric = Metric(self.model, at.damped, held.span)
+            every = StepRows(Metric.beside(self.model, at.damped, held.span), J, self.joints.rows)
             free = held.corrected(free)
         ends = -np.maximum(at.ends, 0) / self.dt
         n = J[:, 2]
@@ -226,16 +283,16 @@ class TimeStepping:
         def answer(least: Array) -> StepSolution:
             """Return what is found where points leave the step with this normal velocity at least."""
             bound[:, 2] = least
-            points = Points(J, self.mu, bound)
+            points = Points(self.mu, bound)
 
             def solved(free: Array, rows: Array) -> tuple[StepSolution, Array]:
-                others = (self.joints.rows, ends)
-                if len(rows):
-                    others = np.concatenate([self.joints.rows, rows]), np.concatenate([ends, np.zeros(len(rows))])
-                found = solve_contacts(metric, free, points, others, before)
+                if not len(rows):
+                    return solve_contacts(every, free, points, ends, before), rows
+                more = StepRows(every.metric, J, np.concatenate([self.joints.rows, rows]))
+                found = solve_contacts(more, free, points, np.concatenate([ends, np.zeros(len(rows))]), before)
                 return found, found.others[len(ends) :]
 
-            return self.joints.with_dry_friction(metric, free, self.dt, solved)
+            return self.joints.with_dry_friction(every.metric, free, self.dt, solved)
 
         found = answer(lowest)
         share = self.points.restitution
@@ -255,15 +312,16 @@ class TimeStepping:
         pull = np.zeros(0) if held is None else held.balance(at.damped @ (found.v - loose) - found.total)
         return found, pull
 
-    def settle(self, q: Array, v: Array, held: Held, end: float) -> tuple[Array, Array]:
+    def settle(self, there: Results, held: Held, end: float) -> tuple[Array, Array]:
         """Return the nearest configuration with no point below the ground and no joint beyond its range, and v there.
 
         What flies keeps its velocity in the world, where it is turned a little.
         """
         rows, span = None, None
+        nowhere = np.zeros(self.model.nv)
         for _ in range(MAX_PROJECTIONS):
-            gap = np.concatenate([self.points.height(q), self.joints.gap(q)])
-            way = np.zeros(self.model.nv)
+            q, v, way = there.q, there.v, nowhere
+            gap = np.concatenate([self.points.height_of(there.frames), self.joints.gap(q)])
             if held.contacts:
                 rows = held.position_rows(q, end)
                 way = rows.corrected(way)
@@ -272,8 +330,10 @@ class TimeStepping:
                 break
             terms = self.points.terms(q)
             G = np.concatenate([terms.rows[:, 2], self.joints.rows])
-            way, _ = Metric(self.model, terms.M, span).nearest(way, G, -gap)
-            q, v = go_straight(self.model, q, way), in_turned_axes(self.model, v, way)
+            metric = Metric(terms.white) if span is None else Metric.beside(self.model, terms.M, span)
+            way, _ = metric.nearest(way, G, -gap)
+            there = arrive(self.model, self.points.frames, q, v, nowhere, way)
+        q, v = there.q, there.v
         if rows is not None:
             held.check_drift(rows)
             v = held.settle(q, v, end)
@@ -328,9 +388,9 @@ class Joints:
                 if np.isfinite(limit):
                     ends.append((sq.start, sv.start, side, limit))
         at_q, at_v, self.sign, self.end = np.array(ends).reshape(len(ends), 4).mT
-        self.at_q = at_q.astype(int)
+        self.at_q, self.at_v = at_q.astype(int), at_v.astype(int)
         self.rows = np.zeros((len(ends), model.nv))
-        self.rows[np.arange(len(ends)), at_v.astype(int)] = self.sign
+        self.rows[np.arange(len(ends)), self.at_v] = self.sign
         self.friction = np.flatnonzero(model.friction > 0)
         self._check_ranges(q)
 

@@ -67,19 +67,20 @@ def turned(model: Model, v: Array, u: Array) -> Array:
 
 def turning(model: Model, v: Array) -> Array:
     """Return ω × v of what slides and turns: what is to be added to an acceleration for axes that stand still."""
-
-    def crossed(v: Array) -> tuple[Array, list[object]]:
-        more = np.zeros_like(v)
-        for _, joint, s in sliding(model):
-            S = joint.subspace(v.dtype)
-            twist = np.matvec(S, v[..., s])
-            spin = np.concatenate([twist[..., :3], np.zeros_like(twist[..., 3:])], axis=-1)
-            more[..., s] = np.matvec(S.mT, np.matvec(cross_motion(spin), twist))
-        return more, []
-
-    asked = Quantity("turning", ("v",), crossed)
+    asked = Quantity("turning", ("v",), lambda v: (turning_rate(model, v), []))
     there: Array = cached_program(model, ("turning", v.dtype), v.dtype, lambda: [asked], single=True)(v)
     return there
+
+
+def turning_rate(model: Model, v: Array) -> Array:
+    """Return what `turning` does, by the textbook."""
+    more = np.zeros_like(v)
+    for _, joint, s in sliding(model):
+        S = joint.subspace(v.dtype)
+        twist = np.matvec(S, v[..., s])
+        spin = np.concatenate([twist[..., :3], np.zeros_like(twist[..., 3:])], axis=-1)
+        more[..., s] = np.matvec(S.mT, np.matvec(cross_motion(spin), twist))
+    return more
 
 
 def straight_rate(model: Model, u: Array, v: Array) -> Array:
