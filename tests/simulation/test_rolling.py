@@ -107,7 +107,7 @@ def test_the_ground_is_computed_by_a_program_for_points_soles_and_balls():
         (BALL, touch()[0]),
     ):
         GroundPoints(model, (contact,), tw.Ground()).terms(model.standing() if model.feet else model.neutral())
-        made = [program for key, program in model._programs.items() if key[0] == "ground"]
+        made = [program for key, program in model._programs.items() if key[0] == "middle of a step"]
         assert {type(program).__name__ for program in made} == {"Program"}
 
 

@@ -21,7 +21,7 @@ from ..model import Model
 from .programs import Equations, Solution
 from .types import Contact
 
-__all__ = ["ContactProgram", "contact_program", "is_programmed", "known_program", "stacked"]
+__all__ = ["ContactProgram", "at_once", "contact_program", "is_programmed", "known_program", "stacked"]
 
 DOUBLE = np.dtype(np.float64)
 
@@ -53,10 +53,10 @@ class ContactProgram(NamedTuple):
         return {frame: x[at] for frame, at in self.forces}
 
 
-def is_programmed(model: Model | MimicModel, contacts: Sequence[Contact]) -> bool:
-    """Return whether a program is worth its making: machine code, for contacts at rest, of a robot without mimics."""
+def is_programmed(contacts: Sequence[Contact]) -> bool:
+    """Return whether a program is worth its making: machine code, for contacts at rest."""
     at_rest = not any(c.velocity or c.acceleration for c in contacts)
-    return bool(contacts) and at_rest and isinstance(model, Model) and default_backend(DOUBLE) == "llvm"
+    return bool(contacts) and at_rest and default_backend(DOUBLE) == "llvm"
 
 
 def known_program(model: Model | MimicModel, kind: str, contacts: Any) -> ContactProgram | None:
@@ -65,6 +65,13 @@ def known_program(model: Model | MimicModel, kind: str, contacts: Any) -> Contac
         return None
     found: ContactProgram | None = model._programs.get((kind, *map(id, contacts)))
     return found
+
+
+def at_once(model: Model | MimicModel, kind: str, contacts: Any, *state: Any) -> tuple[ContactProgram, Array] | None:
+    """Return what the program that is known finds in one state; None where the other way has to be gone."""
+    known = known_program(model, kind, contacts)
+    x = known and known.one(*state)
+    return None if known is None or x is None else (known, x)
 
 
 def contact_program(

@@ -8,7 +8,7 @@ entry of the last diagonal says how much of its row no other one has. Where that
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any, NamedTuple
 
@@ -73,6 +73,6 @@ class Elimination(NamedTuple):
         yield from Fraction(MIN_ROW_SHARE) * np.diag(self.mobility) / self.row_D
 
 
-def every_row(rows: Array) -> Sequence[list[int]]:
+def every_row(rows: Array) -> list[list[int]]:
     """Return for each row all those before it: a matrix without zeros, as a chain that no other joins."""
     return [[*range(k)] for k in range(rows.shape[-2])]

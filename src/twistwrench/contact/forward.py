@@ -26,7 +26,7 @@ from ..fast.steps import integrate
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
-from .calls import ContactProgram, contact_program, is_programmed, known_program, stacked
+from .calls import ContactProgram, at_once, contact_program, is_programmed, stacked
 from .decomposition import decompose
 from .programs import Solution, held_equations, held_quantities, hit_equations
 from .rows import as_contacts, contact_errors, contact_terms, given_motion, per_contact, real_state
@@ -182,13 +182,12 @@ def contact_forward_dynamics(
     (np.float64(-9.92), 12, 0)
     """
     if f_ext is None and stabilise is None:
-        known = known_program(model, "held", contacts)
-        x = known.one(q, v, tau) if known else None
-        if x is not None:
-            return held_by_program(known, x, np.array(known.dim))
+        found = at_once(model, "held", contacts, q, v, tau)
+        if found is not None:
+            return held_by_program(*found, np.array(found[0].dim))
     contacts = as_contacts(model, contacts)
     q, v, others = real_state(model, q, f_ext, v=v, tau=tau)
-    if stabilise is None and is_programmed(model, contacts):
+    if stabilise is None and isinstance(model, Model) and is_programmed(contacts):
         program = held_program(model, contacts)
         x = program(q, v, **others)
         if x is not None:
@@ -369,13 +368,12 @@ def impact(
     """
     if not 0 <= as_number(restitution, "restitution") <= 1:
         raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
-    known = known_program(model, "hit", contacts)
-    x = known.one(q, v) if known else None
-    if x is not None:
-        return hit_by_program(known, x, restitution)
+    found = at_once(model, "hit", contacts, q, v)
+    if found is not None:
+        return hit_by_program(*found, restitution)
     contacts = as_contacts(model, contacts)
     q, v, _ = real_state(model, q, v=v)
-    if is_programmed(model, contacts):
+    if isinstance(model, Model) and is_programmed(contacts):
         program = hit_program(model, contacts)
         x = program(q, v)
         if x is not None:
@@ -497,7 +495,7 @@ def project_state(
         error = np.matvec(terms.W, contact_errors(contacts, terms.placement, anchors))
         far = np.asarray(np.abs(error).max(axis=-1, initial=0) > tolerance)
         if not far.any():
-            return q, jump(model, v, contacts, terms).v
+            return q, impact(model, q, v, contacts).v
         parts = decompose(model, terms.M, terms.W @ terms.J)
         way = -parts.unwhiten(parts.respond(error)[0])
         q = model.integrate(q, way) if isinstance(model, MimicModel) else integrate(model, q, way)

@@ -10,13 +10,15 @@ from collections.abc import Iterable
 
 from numpy.typing import ArrayLike
 
+from straightline.llvm import available
+
 from ..algorithms.mimic import MimicModel
 from ..arrays import as_flag
 from ..errors import ShapeError, SingularError
 from ..model import Model, check_model
 from .qp import least_breach, least_within
 from .rows import every_joint
-from .task import WRENCH_RTOL, ContactForces, ContactProblem, contact_limits, passive_entries
+from .task import TEXTBOOK_CALLS, WRENCH_RTOL, ContactForces, ContactProblem, contact_limits, passive_entries
 from .types import Contact, Pyramid
 
 __all__ = ["contact_inverse_dynamics", "friction_inverse_dynamics"]
@@ -77,7 +79,7 @@ def contact_inverse_dynamics(
     array([  0.   ,   0.   , 157.794])
     """
     every_joint(model)
-    task = ContactProblem.of(model, q, v, a, contacts, f_ext, passive_entries(model, motors))
+    task = ContactProblem.of(model, q, v, a, contacts, f_ext, passive_entries(model, motors), textbook_calls())
     return task.result(task.least, ())
 
 
@@ -140,7 +142,7 @@ def friction_inverse_dynamics(
     >>> bool(push.forces["RL_foot"][0] <= 0.6 * push.forces["RL_foot"][2])
     True
     """
-    task = ContactProblem.of(model, q, v, a, contacts, f_ext)
+    task = ContactProblem.of(model, q, v, a, contacts, f_ext, None, textbook_calls())
     if task.least.ndim != 1:
         asked = "q, v, a" if f_ext is None else "q, v, a, f_ext"
         raise ShapeError(f"{asked}: expected one state, got a batch of shape {task.least.shape[:-1]}")
@@ -165,3 +167,8 @@ def friction_inverse_dynamics(
         tight = rows.A @ answer.f - rows.b > -WRENCH_RTOL * task.size
     binding = tuple(dict.fromkeys(name for name, leans in zip(rows.names, tight) if leans))
     return task.result(f, binding)
+
+
+def textbook_calls() -> int:
+    """Return how often the textbook is asked first: never where machine code is made, which a loop waits for once."""
+    return 0 if available() else TEXTBOOK_CALLS

@@ -40,13 +40,13 @@ Answer = Callable[..., tuple[Array, Array]]
 
 
 class Solution(NamedTuple):
-    """What solves the equations in a state, what a program watches there; unless by the textbook, how."""
+    """What solves the equations in a state, what a program watches there; of numbers that remember, also how."""
 
     motion: Array
     force: Array
     watched: list[Any]
     equations: Elimination | None = None
-    rows: ContactRows | None = None
+    rows: Any = None
 
 
 class Equations:
@@ -113,10 +113,11 @@ class Equations:
 
     def _changed(self, of: str, *x: Array) -> tuple[Array, Array]:
         """Return the derivatives of x and λ by an argument, shapes (..., nv, nv) and (..., m, nv)."""
-        motion, force, _, equations, _ = self.solved(*x)
+        found: Solution = self.solved(*x)
+        equations = found.equations
         if equations is None:
             equations = Elimination.of(tree_terms(self.model, x[0]), self._independent_rows(*x[:2]))
-        known = dict(zip(self.arguments, x)) | {"a": motion, "lambda": force}
+        known = dict(zip(self.arguments, x)) | {"a": found.motion, "lambda": found.force}
         left = self._left_changed(of, known)
         n = self.model.nv
         return equations.solve(-left[..., :n, :], -left[..., n:, :])
@@ -221,5 +222,7 @@ class Once:
             self._arrays = [ref(x[0], self._forget), *map(ref, x[1:])]
         return self._answer
 
-    def _forget(self, _: object) -> None:
-        self._arrays, self._answer = [], None
+    def _forget(self, gone: object) -> None:
+        """Keep no answer longer than its arrays: it holds what was recorded of them."""
+        if any(one is gone for one in self._arrays):
+            self._arrays, self._answer = [], None

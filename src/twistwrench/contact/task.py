@@ -127,11 +127,15 @@ class ContactProblem:
         contacts: Iterable[Contact],
         f_ext: ArrayLike | None,
         passive: Array | None = None,
+        after: int = TEXTBOOK_CALLS,
     ) -> ContactProblem:
-        """Set up and solve the rows without a motor; raise SingularError if no forces at these contacts do."""
+        """Set up and solve the rows without a motor; raise SingularError if no forces at these contacts do.
+
+        `after` so many calls there is a program of the terms.
+        """
         contacts = as_contacts(model, contacts)
         q, v, others = real_state(model, q, f_ext, v=v, a=a)
-        terms = contact_terms(model, q, v, contacts, TEXTBOOK_CALLS, **others)
+        terms = contact_terms(model, q, v, contacts, after, **others)
         J = terms.J
         b = terms.tau
         P = point_map(contacts, terms.placement)

@@ -5,6 +5,8 @@
 - `variational`: the method that keeps momentum and, over long times, energy.
 - `stepping`: the method with a ground, impulses in each step, damping, friction and ranges of joints; start there for
   contact in time.
+- `sticking`: the step of a robot that stands, as one program.
+- `programs`: the terms of any other step.
 - `cones`: which points take part, and the velocity after their impulses.
 - `coulomb`: Coulomb's law for one step.
 - `held`: loops, couplings and rails beside it.

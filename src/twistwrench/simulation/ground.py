@@ -146,13 +146,13 @@ class GroundPoints:
 
     def terms_of(self, found: Results) -> PointTerms:
         """Return what a step needs of what is known in its middle."""
-        arms = self._arms(found.frames) if self.thick else None
         moves = found.rows[self.owner]
         rows = moves[:, 3:]
+        place = found.frames[self.owner, :, 3]
         if self.thick:
+            arms = self._arms(found.frames)
             rows = rows - cross_matrix(arms) @ moves[:, :3]
-        there = found.frames[self.owner, :, 3]
-        place = there if arms is None else there + arms
+            place = place + arms
         if not self.upright:
             rows, place = self.ground.axes @ rows, place @ self.ground.axes.mT
         return PointTerms(found.M, found.white, place - [0.0, 0.0, self.ground.height], rows)

@@ -154,7 +154,7 @@ def simulate(
     may_touch = tuple(c for c in contacts if c.pushes)
     if name == "time-stepping":
         contacts = tuple(c for c in contacts if not c.pushes)
-        stepper = TimeStepping(model, may_touch, ground or Ground(), float(dt), q, contacts)
+        stepper = TimeStepping(model, may_touch, ground or Ground(), float(dt), q, contacts, count)
     system = System(model, contacts, push, tau, q, v, float(dt), _period(dt_control, dt, tau), stepper)
     system.check_slip(q, v)
     start = perf_counter()

@@ -43,7 +43,7 @@ from .divergence import DivergenceError, check_divergence
 from .ground import Ground, GroundPoints, point_forces
 from .held import Held, Rows
 from .programs import arrive, middle_of_step
-from .sticking import StickingStep, sticking_program
+from .sticking import Program, StickingStep, prepared_sticking
 from .straight import turning
 
 __all__ = ["Joints", "TimeStepping"]
@@ -102,6 +102,8 @@ class TimeStepping:
         At the start.
     held : sequence of Contact
         What holds in every step, from where it is at the start.
+    steps : int, optional
+        How many steps are to be made, which decides whether a program is worth its making.
 
     Attributes
     ----------
@@ -132,6 +134,7 @@ class TimeStepping:
         dt: float,
         q: Array,
         held: Sequence[Contact] = (),
+        steps: int = 0,
     ) -> None:
         self.model = model
         self.contacts = tuple(contacts)
@@ -151,9 +154,12 @@ class TimeStepping:
         self._damping = self.dt * model.damping
         self._damped = bool(model.damping.any())
         self._check_start(q)
-        changes = self.points.restitution.any() or self.points.velocity.any() or self._damped
-        moved_only = changes or held or self.joints.friction.size or not self.contacts
-        self._sticks = not moved_only
+        self._standing = None if self._is_special() else prepared_sticking(model, self.points.contacts, steps)
+
+    def _is_special(self) -> bool:
+        """Return whether a robot that stands is moved by more than its joint forces and its contacts."""
+        moves = self.points.restitution.any() or self.points.velocity.any() or self._damped
+        return bool(moves or self.held.contacts or self.joints.friction.size or not self.contacts)
 
     def step(self, tau: Array, q: Array, v: Array, since: float) -> tuple[Array, Array]:
         """Make one step of each item of a batch, under the joint forces τ, and return q and v at its end.
@@ -171,12 +177,13 @@ class TimeStepping:
         for item in np.ndindex(batch):
             q0 = q[item].copy()
             v0 = v[item].copy()
-            stuck = self.stand(tau[item], q0, v0, self._impulse[item]) if self._sticks else None
-            if stuck is not None:
+            program = self.model._programs.get(self._standing)
+            stuck = program and self.stand(program, tau[item], q0, v0, self._impulse[item])
+            if stuck:
                 x, q1[item], v1[item], missed[item], fastest[item] = stuck
                 self._impulse[item] = x.points[5]
                 force[item] = x.points[5] / self.dt
-                place[item] = x.place
+                place[item] = x.place - [0.0, 0.0, self.ground.height]
                 continue
             held = self.held.at(item)
             end = since + self.dt
@@ -195,7 +202,7 @@ class TimeStepping:
         return q1, v1
 
     def stand(
-        self, tau: Array, q: Array, v: Array, before: Array
+        self, program: Program, tau: Array, q: Array, v: Array, before: Array
     ) -> tuple[StickingStep, Array, Array, Array, float] | None:
         """Return a step in which all that may touch sticks, q and v at its end, how each point misses, the fastest.
 
@@ -203,13 +210,9 @@ class TimeStepping:
         """
         if not (before[:, 2] > 0).all():
             return None
-        program = sticking_program(self.model, self.points.contacts, self.ground)
-        if program is None:
-            self._sticks = False
-            return None
         bound = np.zeros_like(before)
         bound[:, 2] = -np.maximum(self.points.height(q), 0) / self.dt
-        results = program(q, v, tau, bound.ravel(), before.ravel(), np.array([self.dt]))
+        results = program(q, v, tau, bound.ravel(), before.ravel(), self.ground.axes, np.array([self.dt]))
         if results is None:
             return None
         found = StickingStep(*results)
@@ -227,7 +230,7 @@ class TimeStepping:
             and np.abs(found.speeds).max() * max(1.0, self.dt) <= MAX_STEADY_SPEED
         ):
             return None
-        if min(found.height.min(), self.joints.gap(found.q).min(initial=0)) >= -GAP_ATOL:
+        if min(found.height.min() - self.ground.height, self.joints.gap(found.q).min(initial=0)) >= -GAP_ATOL:
             return found, found.q, found.v, missed, fastest
         there = arrive(self.model, self.points.frames, found.q, found.v, np.zeros_like(v), np.zeros_like(v))
         return found, *self.settle(there, self.held, 0.0), missed, fastest

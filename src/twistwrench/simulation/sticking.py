@@ -9,7 +9,7 @@ is another than that of a robot that stands, the step is made as all steps are (
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,12 +29,14 @@ from ..fast.recording import record
 from ..model import Model, tree_terms
 from ..spatial import SE3
 from ..spatial.rotation import cross_matrix
-from .ground import Ground
 from .straight import shifted_and_turned, turned, turning_rate, watched
 
-__all__ = ["StickingStep", "sticking_program"]
+__all__ = ["Program", "StickingStep", "prepared_sticking"]
 
 DOUBLE = np.dtype(np.float64)
+
+MIN_STEPS = 500
+"""Steps of a motion for which the program is worth its making."""
 
 
 class StickingStep(NamedTuple):
@@ -45,32 +47,34 @@ class StickingStep(NamedTuple):
     points: Array
     """(6, k, 3): what the points move without impulses beyond their bounds, with them, and impulses; each twice."""
     place: Array
-    """(k, 3): the points in the middle of the step."""
+    """(k, 3): the points in the middle of the step, from the origin of the world."""
     q: Array
     v: Array
     height: Array
-    """(k,), of the points at the end."""
+    """(k,), of the points at the end, above the origin of the world."""
 
 
 Program = Callable[..., tuple[Array, ...] | None]
-"""From q, v, τ, the bounds and the impulses before, (3 k,), and dt, (1,), to a `StickingStep`; None where unsure."""
+"""From q, v, τ, bounds and impulses before (3 k,), the ground's axes and dt, to a `StickingStep`; None if unsure."""
 
 
-def sticking_program(model: Model, contacts: Sequence[Contact], ground: Ground) -> Program | None:
-    """Return the program of a step, made once; None where there can be none."""
-    made = Sticking(model, contacts, ground)
-    key = ("sticking step", *made.places, ground.normal, ground.height)
-    if key not in model._programs:
+def prepared_sticking(model: Model, contacts: Sequence[Contact], steps: int) -> Hashable:
+    """Return the key under which a model has the program of a step, for any ground: None, or nothing, if there is none.
+
+    For a motion of few steps none is made, as it takes longer than they do.
+    """
+    made = Sticking(model, contacts)
+    key = ("sticking step", *made.places)
+    if key not in model._programs and steps >= MIN_STEPS:
         model._programs[key] = made.program()
-    found: Program | None = model._programs[key]
-    return found
+    return key
 
 
 class Sticking:
     """A robot that stands on points and soles, and what it is recorded from."""
 
-    def __init__(self, model: Model, contacts: Sequence[Contact], ground: Ground) -> None:
-        self.model, self.contacts, self.ground = model, contacts, ground
+    def __init__(self, model: Model, contacts: Sequence[Contact]) -> None:
+        self.model, self.contacts = model, contacts
         self.places = [(c.frame, *map(tuple, c.points.tolist())) for c in contacts]
         self.plain = all(isinstance(c, PointContact | SurfaceContact) for c in contacts)
         self.k = sum(len(c.points) for c in contacts)
@@ -80,7 +84,15 @@ class Sticking:
         if not self.plain or default_backend(DOUBLE) != "llvm" or too_long(self.model, ("M",)):
             return None
         n, dim = self.model.nv, (3 * self.k,)
-        shapes = {"q": (self.model.nq,), "v": (n,), "tau": (n,), "bound": dim, "before": dim, "dt": (1,)}
+        shapes = {
+            "q": (self.model.nq,),
+            "v": (n,),
+            "tau": (n,),
+            "bound": dim,
+            "before": dim,
+            "axes": (3, 3),
+            "dt": (1,),
+        }
         found: list[tuple[list[Array], list[Any]]] = []
 
         def part(which: int) -> Callable[..., tuple[Array, list[Any]]]:
@@ -102,7 +114,7 @@ class Sticking:
         return BackEnd(line, DOUBLE, "llvm").one_state(single=False)
 
     def step(
-        self, q: Array, v: Array, tau: Array, bound: Array, before: Array, dt: Array
+        self, q: Array, v: Array, tau: Array, bound: Array, before: Array, axes: Array, dt: Array
     ) -> tuple[list[Array], list[Any]]:
         """Return a step, and what is to be watched."""
         model, time = self.model, dt[0]
@@ -110,7 +122,7 @@ class Sticking:
         middle, v = shifted_and_turned(model, q, half), turned(model, v, half)
         rows = contact_rows(model, middle, 0 * v, self.contacts)
         equations = Elimination.of(tree_terms(model, middle), rows.J)
-        spread = [self.spread(c, T) for c, T in zip(self.contacts, rows.placement)]
+        spread = [Spread(c, T, axes) for c, T in zip(self.contacts, rows.placement)]
         speeds: list[Array] = []
         loose: list[Array] = []
         ends: list[Array] = []
@@ -131,8 +143,8 @@ class Sticking:
         straight = turned(model, after, -half)
         way = straight * time
         there, new = shifted_and_turned(model, q, way), turned(model, straight, way)
-        place = self.corners(rows.placement)
-        height = self.corners(contact_rows(model, there, 0 * v, self.contacts).placement)[:, 2]
+        place = self.corners(rows.placement) @ axes.mT
+        height = self.corners(contact_rows(model, there, 0 * v, self.contacts).placement) @ axes[2]
         questions = [*equations.watched(model, DOUBLE), *watched(model, half), *watched(model, way)]
         points = np.stack([*loose, *ends, *pushes]).reshape(6, self.k, 3)
         return [np.stack(speeds), points, place, there, new, height], questions
@@ -147,15 +159,9 @@ class Sticking:
         return np.concatenate([one.moves(x) for one, x in zip(spread, parts)])
 
     def corners(self, at: Sequence[SE3]) -> Array:
-        """Return the places of all points in the axes of the ground, the height last."""
-        axes = convert(self.ground.axes, object)
-        rise = convert(np.array([0.0, 0.0, self.ground.height]), object)
+        """Return the places of all points in the world, shape (k, 3)."""
         parts = [convert(c.points, object) @ T.rotation.mT + T.translation for c, T in zip(self.contacts, at)]
-        return np.concatenate(parts) @ axes.mT - rise
-
-    def spread(self, contact: Contact, at: SE3) -> Spread:
-        """Return how the rows of a contact and its points go together."""
-        return Spread(contact, at, convert(self.ground.axes, object))
+        return np.concatenate(parts)
 
 
 class Spread:
@@ -167,7 +173,7 @@ class Spread:
         if self.sole:
             arms = [cross_matrix(p) for p in contact.points]
             G = np.concatenate([np.concatenate([-p, np.eye(3)], axis=1) for p in arms])
-            self.inverse = convert(np.linalg.inv(G.T @ G), object)  # in the axes of the sole
+            self.inverse = convert(np.linalg.inv(G.mT @ G), object)  # in the axes of the sole
             self.G = convert(G, object)
             self.R = at.rotation
 
