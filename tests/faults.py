@@ -331,9 +331,11 @@ FAULTS = [
     Fault(
         "impact: restitution that slows down",
         "contact/forward.py",
-        "v=v - (1 + restitution)",
-        "v=v - (1 - restitution)",
+        "after = after + e * (after - v)",
+        "after = after - e * (after - v)",
     ),
+    Fault("contact: a program that pushes the other way", "contact/programs.py", "free + change", "free - change"),
+    Fault("a step of a robot that stands without its mean", "simulation/sticking.py", "(v + after) / 2", "v"),
     Fault(
         "friction: a cone that opens downwards", "contact/types.py", "np.full(sides, -slope)", "np.full(sides, slope)"
     ),
@@ -415,8 +417,8 @@ FAULTS = [
     Fault(
         "damping left out",
         "simulation/stepping.py",
-        "damped = terms.M if self._damping is None else terms.M + self._damping",
-        "damped = terms.M",
+        "self._damping = self.dt * model.damping",
+        "self._damping = 0 * model.damping",
     ),
     Fault(
         "no way back from below the ground",
@@ -430,14 +432,14 @@ FAULTS = [
     Fault(
         "a joint's range ends nowhere",
         "simulation/stepping.py",
-        "at_v.astype(int)] = self.sign",
-        "at_v.astype(int)] = -self.sign",
+        "self.at_v] = self.sign",
+        "self.at_v] = -self.sign",
     ),
     Fault(
         "arm of a sole's corner left out",
         "simulation/ground.py",
-        "cross_matrix(arms) @ moves[..., :3, :]",
-        "0 * moves[..., 3:, :]",
+        "cross_matrix(arms) @ moves[:, :3]",
+        "0 * moves[:, 3:]",
     ),
     Fault(
         "Munthe-Kaas: sign of ½ φ × ω",

@@ -25,7 +25,7 @@ MIXED = [*points(TIPS[:1]), tw.SurfaceContact(TIPS[2], (0.1, 0.05), 0.6), tw.Loo
 LEG = Recipe(3, seed=2, base="floating", branching=0.0).model
 
 ROBOTS = {
-    "a leg": (LEG, LEG.random_configuration(rng=1), points(LEG.joint_names[-1:])),
+    "a leg": (LEG, LEG.random_configuration(rng=1), [tw.SurfaceContact(LEG.joint_names[-1], (0.1, 0.05), 0.6)]),
     "Go2 on four feet": (GO2, GO2.standing(), FEET),
     "humanoid on two soles": (HUMANOID, HUMANOID.standing(), SOLES),
     "a tree in a loop": (TREE, TREE.random_configuration(rng=1), MIXED),
@@ -129,16 +129,17 @@ def test_lists_and_tuples_of_the_same_contacts_share_a_program_and_others_do_not
 # ---------------------------------------------------------------- Pinocchio
 
 
-def there(model, contacts):
-    """The robot and its contacts as Pinocchio's."""
+def there(model, q, contacts):
+    """The robot and its contacts as Pinocchio's, which take the frame's own axes for six rows."""
     pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its constrained dynamics is not asked")
     other = bridge.to_pinocchio_model(model)
     models, datas = pin.StdVec_RigidConstraintModel(), pin.StdVec_RigidConstraintData()
     for c in contacts:
         frame = other.frames[other.getFrameId(c.frame)]
         kind = pin.ContactType.CONTACT_3D if c.dim == 3 else pin.ContactType.CONTACT_6D
-        ends = (frame.parentJoint, frame.placement)
-        models.append(pin.RigidConstraintModel(kind, other, *ends, pin.LOCAL_WORLD_ALIGNED))
+        at = tw.frame_placement(model, q, c.frame)
+        ends = (frame.parentJoint, frame.placement, 0, pin.SE3(at.rotation, at.translation))
+        models.append(pin.RigidConstraintModel(kind, other, *ends, pin.LOCAL))
         datas.append(models[-1].createData())
     data = other.createData()
     pin.initConstraintDynamics(other, data, models, datas)
@@ -154,7 +155,7 @@ def test_random_robots_accelerate_as_in_pinocchio(seed):
     tips = [model.joint_names[i] for i in range(2, model.nbodies) if i not in model.parent]
     contacts = points(tips[:2])
     got = [tw.contact_forward_dynamics(model, q, v, tau, contacts) for _ in range(2)][-1]
-    pin, other, data, models, datas, exact = there(model, contacts)
+    pin, other, data, models, datas, exact = there(model, q, contacts)
     rates = (bridge.to_pinocchio_tangent(model, x) for x in (v, tau))
     if got.redundant:
         exact = pin.ProximalSettings(1e-14, 1e-14, 1e-8, 20)
@@ -218,7 +219,7 @@ def test_derivatives_are_pinocchios_along_what_the_contacts_allow(name):
     model, q, v, tau, contacts = state(name)
     v = tw.impact(model, q, v, contacts).v
     got = tw.compile(tw.Scene(model, contacts=contacts), WANT, backend="numpy")(q, v, tau)
-    pin, other, data, models, datas, exact = there(model, contacts)
+    pin, other, data, models, datas, exact = there(model, q, contacts)
     rates = (bridge.to_pinocchio_tangent(model, x) for x in (v, tau))
     pin.constraintDynamics(other, data, q, *rates, models, datas, exact)
     pin.computeConstraintDynamicsDerivatives(other, data, models, datas, exact)

@@ -53,7 +53,9 @@ PHYSICS_AND_ORACLES = [
     "loading/test_urdf.py",
     "simulation/test_simulation.py",
     "simulation/test_ground.py",
+    "simulation/test_standing_program.py",
     "newton_euler_3d/test_newton_euler_3d.py",
+    "contact/test_contact_programs.py",
     "contact/test_contact_dynamics.py",
     "contact/test_contact_impacts.py",
     "contact/test_contact_friction.py",
@@ -81,6 +83,8 @@ TESTED_BY = {
     "cones": "ground",
     "coulomb": "ground",
     "stepping": "ground",
+    "sticking": "standing",
+    "programs": "contact_programs",
 }
 """Files and folders of the source whose tests go by another name."""
 

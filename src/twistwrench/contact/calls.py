@@ -1,7 +1,4 @@
-"""The program of some contacts, which is found again at once where a loop asks for the same ones (49.9).
-
-One array has all that is found in a state, one thing after the other: x, λ, and more.
-"""
+"""The program of some contacts, which is found again at once where a loop asks for the same ones (49.9)."""
 
 from __future__ import annotations
 
@@ -18,39 +15,34 @@ from ..fast.program import Program
 from ..fast.programs import cached_program
 from ..fast.quantity import Quantity
 from ..model import Model
-from .programs import Equations, Solution
+from .programs import Equations, Once, Solution
+from .rows import per_contact
 from .types import Contact
 
-__all__ = ["ContactProgram", "at_once", "contact_program", "is_programmed", "known_program", "stacked"]
+__all__ = ["ContactProgram", "contact_program", "is_programmed", "known_program"]
 
 DOUBLE = np.dtype(np.float64)
 
 
 class ContactProgram(NamedTuple):
-    """A program, and where in its result the motion is, λ of each contact by its frame, and what follows."""
+    """A program of some contacts: in a state it finds a row of arrays, of which the last ones are λ of each contact."""
 
     contacts: tuple[Contact, ...]
     program: Program
-    motion: tuple[Any, slice]
-    forces: tuple[tuple[str, tuple[Any, slice]], ...]
+    frames: tuple[str, ...]
     dim: int
 
-    def one(self, *state: Any) -> Array | None:
+    def one(self, *state: Any) -> tuple[Array, ...] | None:
         """Return what is found in one state; None for all else, and where the rows are not safely independent."""
         function = self.program.one_state
-        found: Array | None = function(*state) if function else None
+        found: tuple[Array, ...] | None = function(*state) if function else None
         return found
 
-    def __call__(self, q: Array, v: Array, **others: Array) -> Array | None:
+    def __call__(self, q: Array, v: Array, **others: Array) -> tuple[Array, ...] | None:
         """Return what is found in states that have been checked; None where one alone is the textbook's."""
         if self.program.one_state and q.ndim == 1 and "f_ext" not in others:
             return self.one(q, v, *others.values())
-        found: Array = self.program(q, v, *others.values())
-        return found
-
-    def forces_of(self, x: Array) -> dict[str, Array]:
-        """Return λ by frame."""
-        return {frame: x[at] for frame, at in self.forces}
+        return tuple(vars(self.program(q, v, *others.values())).values())
 
 
 def is_programmed(contacts: Sequence[Contact]) -> bool:
@@ -67,48 +59,41 @@ def known_program(model: Model | MimicModel, kind: str, contacts: Any) -> Contac
     return found
 
 
-def at_once(model: Model | MimicModel, kind: str, contacts: Any, *state: Any) -> tuple[ContactProgram, Array] | None:
-    """Return what the program that is known finds in one state; None where the other way has to be gone."""
-    known = known_program(model, kind, contacts)
-    x = known and known.one(*state)
-    return None if known is None or x is None else (known, x)
-
-
 def contact_program(
     model: Model,
     kind: str,
     contacts: tuple[Contact, ...],
     equations: Callable[..., Equations],
+    size: int,
     more: Callable[[Solution, Array], Sequence[Array]],
-    textbook: Callable[..., Array],
+    textbook: Callable[..., Sequence[Array]],
 ) -> ContactProgram:
     """Return the program of contacts that have been checked: made once.
 
-    `equations` makes what it solves. `more` returns, of a solution at a velocity, what follows x and λ, as numbers that
-    remember; `textbook` all of it, of arrays.
+    `equations` makes what it solves. It finds `size` arrays: x, `more` of a solution at a velocity, and λ of each
+    contact; the textbook returns the same, of arrays that do not remember.
     """
 
     def asked() -> list[Quantity]:
         made = equations(model, contacts, DOUBLE)
+        answered = Once(textbook)
 
-        def compute(q: Array, v: Array, *others: Array) -> tuple[Array, list[Any]]:
-            if q.dtype != object:
-                return textbook(q, v, *others), []
-            found = made.solved(q, v, *others)
-            return stacked(found.motion, found.force, *more(found, v)), found.watched
+        def quantity(place: int) -> Quantity:
+            def compute(q: Array, v: Array, *others: Array) -> tuple[Array, list[Any]]:
+                if q.dtype != object:
+                    return answered(q, v, *others)[place], []
+                found = made.solved(q, v, *others)
+                parts = [found.motion, *more(found, v), *per_contact(contacts, found.force).values()]
+                return parts[place], found.watched if place == 0 else []
 
-        return [Quantity(kind, made.arguments, compute)]
+            return Quantity(f"{kind}{place}", made.arguments, compute)
 
-    end, forces = model.nv, []
-    for c in contacts:
-        forces.append((c.frame, (..., slice(end, end + c.dim))))
-        end += c.dim
-    program = cached_program(model, (kind, DOUBLE, contacts), DOUBLE, asked, single=True)
-    known = ContactProgram(contacts, program, (..., slice(0, model.nv)), tuple(forces), end - model.nv)
-    model._programs[(kind, *map(id, contacts))] = known
+        return [quantity(place) for place in range(size)]
+
+    key = (kind, *map(id, contacts))
+    known: ContactProgram | None = model._programs.get(key)
+    if known is None:
+        program = cached_program(model, (kind, DOUBLE, contacts), DOUBLE, asked)
+        known = ContactProgram(contacts, program, tuple(c.frame for c in contacts), sum(c.dim for c in contacts))
+        model._programs[key] = known
     return known
-
-
-def stacked(*parts: Array) -> Array:
-    """Return arrays one after the other along the last axis."""
-    return np.concatenate(parts, axis=-1)

@@ -26,7 +26,7 @@ from ..fast.steps import integrate
 from ..model import Model
 from ..spatial import SE3
 from ..spatial._elementary import at_first_index
-from .calls import ContactProgram, at_once, contact_program, is_programmed, stacked
+from .calls import ContactProgram, contact_program, is_programmed, known_program
 from .decomposition import decompose
 from .programs import Solution, held_equations, held_quantities, hit_equations
 from .rows import as_contacts, contact_errors, contact_terms, given_motion, per_contact, real_state
@@ -42,6 +42,9 @@ __all__ = [
     "jump",
     "project_state",
 ]
+
+NONE = np.int_(0)
+"""Redundant rows of one state that a program has answered."""
 
 CONTRADICTION_RTOL = 1e-8
 """Tolerance of J q̈ + J̇ v, relative to its terms; rounding stays far below."""
@@ -182,32 +185,34 @@ def contact_forward_dynamics(
     (np.float64(-9.92), 12, 0)
     """
     if f_ext is None and stabilise is None:
-        found = at_once(model, "held", contacts, q, v, tau)
-        if found is not None:
-            return held_by_program(*found, np.array(found[0].dim))
+        known = known_program(model, "held", contacts)
+        found = known and known.one(q, v, tau)
+        if known and found:
+            return held_by_program(known, found, np.array(known.dim), NONE)
     contacts = as_contacts(model, contacts)
     q, v, others = real_state(model, q, f_ext, v=v, tau=tau)
     if stabilise is None and isinstance(model, Model) and is_programmed(contacts):
         program = held_program(model, contacts)
-        x = program(q, v, **others)
-        if x is not None:
-            return held_by_program(program, x, x[..., -1].astype(int))
+        found = program(q, v, **others)
+        if found:
+            rank = found[1].astype(int)
+            return held_by_program(program, found, rank, program.dim - rank)
     return held_by_decomposition(model, contacts, q, v, others, stabilise)
 
 
 def held_program(model: Model, contacts: tuple[Contact, ...]) -> ContactProgram:
-    """Return the program of the acceleration of contacts that hold: q̈, λ, slip, residual and rank."""
+    """Return the program of contacts that hold: q̈, the rank, slip, residual and λ."""
 
     def more(found: Solution, v: Array) -> list[Array]:
         J, bias = found.rows.J, found.rows.bias
-        return [np.matvec(J, v), np.matvec(J, found.motion) + bias, np.array([len(J)], object)]
+        return [np.array(len(J), object), np.matvec(J, v), np.matvec(J, found.motion) + bias]
 
-    def textbook(q: Array, v: Array, tau: Array, *f_ext: Array) -> Array:
+    def textbook(q: Array, v: Array, tau: Array, *f_ext: Array) -> list[Array]:
         others = {"tau": tau} | ({"f_ext": f_ext[0]} if f_ext else {})
         d = held_by_decomposition(model, contacts, q, v, others)
-        return stacked(d.qdd, *d.forces.values(), d.slip, d.residual, d.rank[..., None])
+        return [d.qdd, d.rank, d.slip, d.residual, *d.forces.values()]
 
-    return contact_program(model, "held", contacts, held_equations, more, textbook)
+    return contact_program(model, "held", contacts, held_equations, 4 + len(contacts), more, textbook)
 
 
 def contact_quantities(
@@ -217,26 +222,28 @@ def contact_quantities(
 
     def held(q: Array, v: Array, tau: Array, *f_ext: Array) -> tuple[Array, Array]:
         d = contact_forward_dynamics(model, q, v, tau if push is None else tau + push(q), contacts, *f_ext)
-        return d.qdd, stacked(np.zeros((*q.shape[:-1], 0)), *d.forces.values())
+        return d.qdd, np.concatenate([np.zeros((*q.shape[:-1], 0)), *d.forces.values()], axis=-1)
 
     def hit(q: Array, v: Array) -> tuple[Array, Array]:
         d = impact(model, q, v, contacts)
-        return d.v, stacked(np.zeros((*q.shape[:-1], 0)), *d.impulses.values())
+        return d.v, np.concatenate([np.zeros((*q.shape[:-1], 0)), *d.impulses.values()], axis=-1)
 
     return [*held_quantities(model, contacts, dtype, held, hit, push)]
 
 
-def held_by_program(program: ContactProgram, x: Array, rank: Array) -> ContactDynamics:
+def held_by_program(
+    program: ContactProgram, found: tuple[Array, ...], rank: Array, redundant: Array | np.int_
+) -> ContactDynamics:
     """Return what a program has found as the function does."""
-    m = program.dim
+    qdd, _, slip, residual, *forces = found
     made = object.__new__(ContactDynamics)  # whose own way, entry by entry, takes as long as the program
     vars(made).update(
-        qdd=x[program.motion],
-        forces=program.forces_of(x),
+        qdd=qdd,
+        forces=dict(zip(program.frames, forces)),
         rank=rank,
-        redundant=m - rank,
-        slip=x[..., -2 * m - 1 : -m - 1],
-        residual=x[..., -m - 1 : -1],
+        redundant=redundant,
+        slip=slip,
+        residual=residual,
     )
     return made
 
@@ -368,47 +375,50 @@ def impact(
     """
     if not 0 <= as_number(restitution, "restitution") <= 1:
         raise ValueError(f"restitution: expected a number from 0 to 1, got {restitution!r}")
-    found = at_once(model, "hit", contacts, q, v)
-    if found is not None:
-        return hit_by_program(*found, restitution)
+    known = known_program(model, "hit", contacts)
+    found = known and known.one(q, v)
+    if known and found:
+        return hit_by_program(known, found, np.asarray(v), restitution)
     contacts = as_contacts(model, contacts)
     q, v, _ = real_state(model, q, v=v)
     if isinstance(model, Model) and is_programmed(contacts):
         program = hit_program(model, contacts)
-        x = program(q, v)
-        if x is not None:
-            return hit_by_program(program, x, restitution)
+        found = program(q, v)
+        if found:
+            return hit_by_program(program, found, v, restitution)
     return jump(model, v, contacts, contact_terms(model, q, v, contacts), restitution)
 
 
 def hit_program(model: Model, contacts: tuple[Contact, ...]) -> ContactProgram:
-    """Return the program of an impact with e = 0: v⁺, Λ, the energy lost, v and the rank."""
+    """Return the program of an impact with e = 0: v⁺, the rank, the energy lost, and Λ."""
 
     def more(found: Solution, v: Array) -> list[Array]:
         lost = -(found.force * np.matvec(found.rows.J, v)).sum() / 2
-        return [v, np.array([lost, len(found.rows.J)], object)]
+        return [np.array(len(found.rows.J), object), np.array(lost, object)]
 
-    def textbook(q: Array, v: Array) -> Array:
+    def textbook(q: Array, v: Array) -> list[Array]:
         hit = jump(model, v, contacts, contact_terms(model, q, v, contacts))
-        return stacked(hit.v, *hit.impulses.values(), v, hit.energy_lost[..., None], hit.rank[..., None])
+        return [hit.v, hit.rank, hit.energy_lost, *hit.impulses.values()]
 
-    return contact_program(model, "hit", contacts, hit_equations, more, textbook)
+    return contact_program(model, "hit", contacts, hit_equations, 3 + len(contacts), more, textbook)
 
 
-def hit_by_program(program: ContactProgram, x: Array, restitution: float) -> Impact:
+def hit_by_program(program: ContactProgram, found: tuple[Array, ...], v: Array, e: float) -> Impact:
     """Return what a program has found as the function does: what bounces goes on by e times the change."""
-    after = x[program.motion]
-    n = after.shape[-1]
-    if restitution:
-        after = after + restitution * (after - x[..., -n - 2 : -2])
-    rank = x[..., -1].astype(int)
-    return Impact(
+    after, rank, lost, *impulses = found
+    rank = rank.astype(int)
+    if e:
+        after = after + e * (after - v)
+        impulses = [(1 + e) * impulse for impulse in impulses]
+    made = object.__new__(Impact)
+    vars(made).update(
         v=after,
-        impulses={frame: (1 + restitution) * force for frame, force in program.forces_of(x).items()},
-        energy_lost=np.asarray((1 - restitution**2) * x[..., -2]),
+        impulses=dict(zip(program.frames, impulses)),
+        energy_lost=np.asarray((1 - e * e) * lost),
         rank=rank,
         redundant=program.dim - rank,
     )
+    return made
 
 
 def jump(

@@ -33,7 +33,7 @@ from .elimination import Elimination
 from .rows import ContactRows, contact_rows, given_motion
 from .types import Contact
 
-__all__ = ["Equations", "held_equations", "held_quantities", "hit_equations"]
+__all__ = ["Equations", "Once", "Solution", "held_equations", "held_quantities", "hit_equations"]
 
 Answer = Callable[..., tuple[Array, Array]]
 """From a state to q̈ and λ, or v⁺ and Λ, by the textbook: shapes (..., nv) and (..., m)."""
