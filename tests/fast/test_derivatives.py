@@ -163,7 +163,7 @@ def test_the_page_runs_and_both_languages_have_the_same_code():
     pages = [page("derivatives", language).read_text(encoding="utf-8") for language in ("", ".zh-CN")]
     code, twin = (["".join(block.splitlines()) for block in blocks(text, 0, len(text))] for text in pages)
     assert code == twin
-    assert len(code) == 6
+    assert len(code) == 7
     exec("\n".join(blocks(pages[0], 0, len(pages[0]))), {})
 
 
