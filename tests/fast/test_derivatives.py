@@ -156,6 +156,29 @@ def test_second_derivatives_by_a_complex_step_are_symmetric_and_those_of_a_diffe
     np.testing.assert_allclose(exact, np.swapaxes(exact, 0, -1), atol=1e-13)
 
 
+@pytest.mark.parametrize(
+    ("robot", "name"),
+    [
+        ("double_pendulum", "dqdd_dq_dq"),
+        ("double_pendulum", "dqdd_dv_dtau"),
+        ("planar_arm", "dtau_dq_dv"),
+        pytest.param("go2", "dtau_dq_dq", marks=pytest.mark.slow),
+        pytest.param("go2", "dA_G_dq_dq", marks=pytest.mark.slow),
+    ],
+)
+def test_second_derivatives_by_name_are_complex_steps_of_the_first(robot, name):
+    model = tw.load(robot)
+    s = random_state(model, rng=3)
+    first, _, by = name.rpartition("_d")
+    program, of = tw.compile(model, name, backend="numpy"), tw.compile(model, first, dtype=complex, backend="numpy")
+    given = {x: getattr(s, x) for x in program.arguments if x != "f_ext"}
+    steps = 1e-30j * np.eye(model.nv)
+    moved = {x: np.tile(y, (model.nv, 1)) for x, y in given.items()}
+    moved[by] = model.integrate(s.q, steps) if by == "q" else given[by] + steps
+    expected = np.moveaxis(of(**moved).imag / 1e-30, 0, -1)
+    np.testing.assert_allclose(program(**given), expected, rtol=0, atol=1e-11 * max(1, np.abs(expected).max()))
+
+
 # ---------------------------------------------------------------- the page
 
 
@@ -163,7 +186,7 @@ def test_the_page_runs_and_both_languages_have_the_same_code():
     pages = [page("derivatives", language).read_text(encoding="utf-8") for language in ("", ".zh-CN")]
     code, twin = (["".join(block.splitlines()) for block in blocks(text, 0, len(text))] for text in pages)
     assert code == twin
-    assert len(code) == 7
+    assert len(code) == 8
     exec("\n".join(blocks(pages[0], 0, len(pages[0]))), {})
 
 

@@ -17,6 +17,7 @@ from ..algorithms.kinematics import Reference
 from ..arrays import Array, as_count, as_flag, as_names, check_choice, check_kind
 from ..errors import check_known
 from ..model import Model, check_arrays, check_model
+from .derivatives import second_derivatives
 from .digits import NUMBERS, RUNNING, WIDE, DigitsProgram, wide_type, with_digits
 from .program import Program
 from .quantities import Quantity, chosen, quantities
@@ -65,8 +66,9 @@ def compile(
         "lambda" are those of `contact_forward_dynamics`, λ in the order of the rows of `constraint_jacobian`, "v_plus"
         and "impulse" those of `impact`. I^A is refused, which would be another one.
     want : str or iterable of str
-        Names of functions, or symbols of `quantities.SYMBOLS`. For one name the program returns an array; for several
-        it returns `Results`, and what they have in common is computed once.
+        Names of functions, symbols of `quantities.SYMBOLS`, or derivatives by an argument, ``dtau_dq``, also twice,
+        ``dtau_dq_dv``. For one name the program returns an array; for several it returns `Results`, and what they have
+        in common is computed once.
     dtype : dtype_like
         A floating-point type (float32 and float64 can be machine code), or one with more digits: "double-double" has
         32 (``straightline.DoubleDouble``, pairs of hi and lo), "quad" 34, and "mpmath" as many as ``mpmath.mp.dps``.
@@ -162,7 +164,8 @@ def _program(
     for frame in frames:
         body.frame(frame)
     known = of_scene(dtype, frames, reference) if of_scene else quantities(body, dtype, held, frames, reference)
-    wanted = chosen(known, (asked,) if isinstance(asked, str) else asked)
+    names = (asked,) if isinstance(asked, str) else asked
+    wanted = chosen(known | second_derivatives(body, known, names), names)
     if of_scene is not None and model.contacts:
         _refuse_free(wanted)
     given = _checked(body, given)

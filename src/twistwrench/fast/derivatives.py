@@ -11,7 +11,7 @@ kind of joint, nv columns, and neither a quaternion nor its norm is differentiat
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -33,7 +33,7 @@ from ..spatial.rotation import cross_matrix
 from .quantity import Compute, Quantity, shapes
 from .watch import pivots
 
-__all__ = ["derivatives", "of_line", "regressor", "replay", "steps"]
+__all__ = ["derivatives", "of_line", "regressor", "replay", "second_derivatives", "steps"]
 
 
 def derivatives(model: Model, quantity: Quantity, dtype: np.dtype[Any]) -> Iterator[Quantity]:
@@ -49,6 +49,21 @@ def derivatives(model: Model, quantity: Quantity, dtype: np.dtype[Any]) -> Itera
             elif quantity.symbol == "qdd":
                 compute = _of_acceleration(model, quantity, name, dtype)
             yield Quantity(f"d{quantity.symbol}_d{name}", quantity.arguments, compute)
+
+
+def second_derivatives(model: Model, known: Mapping[str, Quantity], names: Iterable[str]) -> dict[str, Quantity]:
+    """Return those of some names that are derivatives of derivatives that are known, as ``dtau_dq_dv``.
+
+    Along q they are changes of the first derivative, as ``dtau_dq`` is one of τ: where joints turn about several axes,
+    the order of two steps matters.
+    """
+    made = {}
+    for name in names:
+        first, _, by = name.rpartition("_d")
+        quantity = known.get(first)
+        if name not in known and first.startswith("d") and quantity and by in {*quantity.arguments} - {"f_ext"}:
+            made[name] = Quantity(name, quantity.arguments, of_line(model, quantity, by))
+    return made
 
 
 def of_line(model: Model, quantity: Quantity, of: str) -> Compute:
