@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +22,10 @@ from .types import Contact
 __all__ = ["ContactProgram", "contact_program", "is_programmed", "known_program"]
 
 DOUBLE = np.dtype(np.float64)
+
+MAX_KNOWN = 64  # sets of contacts that are found again by their addresses
+
+NOTHING: Mapping[tuple[int, ...], Any] = {}
 
 
 class ContactProgram(NamedTuple):
@@ -55,7 +59,7 @@ def known_program(model: Model | MimicModel, kind: str, contacts: Any) -> Contac
     """Return the program that was made for these very contacts, which it keeps: so none else has their addresses."""
     if type(contacts) not in (list, tuple) or type(model) is not Model:
         return None
-    found: ContactProgram | None = model._programs.get((kind, *map(id, contacts)))
+    found: ContactProgram | None = model._programs.get(kind, NOTHING).get((*map(id, contacts),))
     return found
 
 
@@ -90,10 +94,12 @@ def contact_program(
 
         return [quantity(place) for place in range(size)]
 
-    key = (kind, *map(id, contacts))
-    known: ContactProgram | None = model._programs.get(key)
+    known = known_program(model, kind, contacts)
     if known is None:
         program = cached_program(model, (kind, DOUBLE, contacts), DOUBLE, asked)
         known = ContactProgram(contacts, program, tuple(c.frame for c in contacts), sum(c.dim for c in contacts))
-        model._programs[key] = known
+        every = model._programs.setdefault(kind, {})
+        if len(every) >= MAX_KNOWN:  # contacts that are made anew for each call
+            every.clear()
+        every[(*map(id, contacts),)] = known
     return known

@@ -6,7 +6,6 @@ The law itself is in `coulomb`. Here it is asked of the points that the motion b
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
@@ -132,26 +131,22 @@ class StepSolution:
 
 
 class StepRows:
-    """The rows of all points and of what else holds in a step, and W of them in a metric."""
+    """The rows of all points and of what else holds in a step, in a metric."""
 
     def __init__(self, metric: Metric, J: Array, G: Array) -> None:
         self.metric = metric
         self.k = len(J)
         self.A = np.concatenate([J.reshape(3 * self.k, J.shape[-1]), G])
-        self.Y = metric.inverse @ self.A.mT
         self._known: dict[bytes, tuple[Array, Array, Array, Array | None]] = {}
 
-    @cached_property
-    def W(self) -> Array:
-        """What impulses along the rows do to the velocities along them."""
-        return np.asarray(self.Y.mT @ self.Y)
-
     def of(self, at: Array) -> tuple[Array, Array, Array, Array | None]:
-        """Return A, Y, W and W⁻¹ of some rows: points first."""
+        """Return A of some rows, Y = F Aᵀ, W and W⁻¹: what impulses along them do to the velocities along them."""
         key = at.tobytes()
         if key not in self._known:
-            W = self.W[np.ix_(at, at)]
-            self._known[key] = self.A[at], self.Y[:, at], W, safe_inverse(W)
+            A = self.A[at]
+            Y = self.metric.inverse @ A.mT
+            W = Y.mT @ Y
+            self._known[key] = A, Y, W, safe_inverse(W)
         return self._known[key]
 
 

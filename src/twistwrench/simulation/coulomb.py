@@ -201,13 +201,16 @@ def newton(law: CoulombLaw, impulse: Array, still: float) -> tuple[Array, Array]
         at = np.flatnonzero(np.concatenate([np.repeat(normal > 0, 3), aim[n:] > 0]))
         A, b = law.W[np.ix_(at, at)], -law.u0[at]
         slides = np.flatnonzero((normal > 0) & (size > mu * normal))
-        for i, a in zip(slides, np.searchsorted(at, 3 * slides)):
-            d = along[i] / size[i]
-            turns = mu[i] * normal[i] / size[i]
-            P = turns * (np.eye(2) - np.outer(d, d))
-            A[a : a + 2], b[a : a + 2] = P @ A[a : a + 2], P @ b[a : a + 2]
-            A[a : a + 2, a : a + 2] += w[i] * (np.eye(2) - P)
-            A[a : a + 2, a + 2] -= w[i] * mu[i] * d
+        if len(slides):
+            a = np.searchsorted(at, 3 * slides)
+            plane = a[:, None] + np.arange(2)
+            d = along[slides] / size[slides, None]
+            turns = mu[slides] * normal[slides] / size[slides]
+            own, push = w[slides, None, None], (w * mu)[slides, None]
+            P = turns[:, None, None] * (np.eye(2) - d[:, :, None] * d[:, None, :])
+            A[plane], b[plane] = P @ A[plane], np.matvec(P, b[plane])
+            A[plane[:, :, None], plane[:, None, :]] += own * (np.eye(2) - P)
+            A[plane, a[:, None] + 2] -= push * d
         goal = np.zeros(len(impulse))
         goal[at] = impulse[at] + np.linalg.lstsq(A, b - A @ impulse[at], rcond=RANK_RTOL)[0] if len(at) else b
         for share in STEP_SHARES:
