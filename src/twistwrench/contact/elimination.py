@@ -28,16 +28,16 @@ MIN_ROW_SHARE = 1e-3
 
 
 class Elimination(NamedTuple):
-    """The factors of M = LᵀDL and of J M⁻¹ Jᵀ, and Y = L⁻ᵀ Jᵀ."""
+    """The factors of M = LᵀDL and of J M⁻¹ Jᵀ, their diagonals inverted, and Y = L⁻ᵀ Jᵀ."""
 
     tree: Tree
     L: Array
-    D: Array
+    D_inv: Array
     inboard: list[list[int]]
     Y: Array
     mobility: Array
     row_L: Array
-    row_D: Array
+    row_D_inv: Array
 
     @classmethod
     def of(cls, tree: Tree, J: Array) -> Elimination:
@@ -45,7 +45,8 @@ class Elimination(NamedTuple):
         inboard = inboard_dofs(tree)
         L, D = factorize(composite_rigid_body(tree).M, inboard)
         mobility = delassus(L, D, inboard, J)
-        return cls(tree, L, D, inboard, solve_inward(L, inboard, J.mT), mobility, *factorize(mobility, every_row(J)))
+        row_L, row_D = factorize(mobility, every_row(J))
+        return cls(tree, L, 1 / D, inboard, solve_inward(L, inboard, J.mT), mobility, row_L, 1 / row_D)
 
     def hold(self, a: Array) -> tuple[Array, Array]:
         """Return the least x, in the metric of M, with J x = a, and the λ with M x = Jᵀ λ."""
@@ -55,22 +56,22 @@ class Elimination(NamedTuple):
     def solve(self, f: Array, a: Array) -> tuple[Array, Array]:
         """Return x and λ with M x − Jᵀ λ = f and J x = a, column by column."""
         white = solve_inward(self.L, self.inboard, f)
-        force = self.force(a - self.Y.mT @ (white / self.D[..., None]))
+        force = self.force(a - self.Y.mT @ (white * self.D_inv[..., None]))
         return self.follow(white + self.Y @ force), force
 
     def force(self, a: Array) -> Array:
         """Return λ with J M⁻¹ Jᵀ λ = a, column by column."""
         rows = every_row(self.row_L)
-        return solve_outward(self.row_L, rows, solve_inward(self.row_L, rows, a) / self.row_D[..., None])
+        return solve_outward(self.row_L, rows, solve_inward(self.row_L, rows, a) * self.row_D_inv[..., None])
 
     def follow(self, white: Array) -> Array:
         """Return x with M x = Lᵀ times these columns."""
-        return solve_outward(self.L, self.inboard, white / self.D[..., None])
+        return solve_outward(self.L, self.inboard, white * self.D_inv[..., None])
 
     def watched(self, model: Model, dtype: np.dtype[Any]) -> Iterator[Any]:
         """Yield what a program watches: small where M and J M⁻¹ Jᵀ are safely regular."""
-        yield from pivots(model, self.tree, [np.diag(1 / self.D[s]) for s in model.v_slice], dtype)
-        yield from Fraction(MIN_ROW_SHARE) * np.diag(self.mobility) / self.row_D
+        yield from pivots(model, self.tree, [np.diag(self.D_inv[s]) for s in model.v_slice], dtype)
+        yield from Fraction(MIN_ROW_SHARE) * np.diag(self.mobility) * self.row_D_inv
 
 
 def every_row(rows: Array) -> list[list[int]]:
