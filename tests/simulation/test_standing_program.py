@@ -8,6 +8,7 @@ import pytest
 import twistwrench as tw
 from straightline.llvm import available
 from twistwrench.simulation import sticking
+from twistwrench.simulation.ground import GroundPoints
 from twistwrench.simulation.stepping import TimeStepping
 
 pytestmark = pytest.mark.skipif(not available(), reason="llvmlite is not installed: there is no machine code")
@@ -96,3 +97,16 @@ def test_what_bounces_or_moves_with_its_ground_is_left_to_the_general_step(monke
     for contacts, ground in ((feet, tw.Ground(restitution=0.2)), (belt, tw.Ground())):
         tw.simulate(model, q, rest, dt=1e-3, steps=3, contacts=contacts, ground=ground)
     assert not counted
+
+
+@pytest.mark.parametrize("made", [go2, humanoid])
+def test_heights_of_many_states_are_those_of_each(made):
+    model, q, contacts = made()
+    points = GroundPoints(model, contacts, SLOPE)
+    rng = np.random.default_rng(2)
+    many = np.stack([[model.integrate(q, 0.1 * rng.standard_normal(model.nv)) for _ in range(3)] for _ in range(2)])
+    heights = points.height(many)
+    assert heights.shape == (2, 3, len(points.mu))
+    for k in np.ndindex(2, 3):
+        np.testing.assert_allclose(heights[k], points.height(many[k]), rtol=0, atol=1e-15)
+        np.testing.assert_allclose(heights[k], points.terms(many[k]).place[:, 2], rtol=0, atol=1e-14)

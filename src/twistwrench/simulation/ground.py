@@ -163,7 +163,7 @@ class GroundPoints:
 
     def height_of(self, frames: Array) -> Array:
         """Return how high the points are where the frames are placed so, shape (..., k)."""
-        there = frames[..., self.owner, :, 3]
+        there = frames[..., 3][..., self.owner, :]
         if self.thick:
             there = there + self._arms(frames)
         return np.asarray(there @ self._normal - self.ground.height)
