@@ -23,7 +23,7 @@ from ..fast.quantity import Quantity
 from ..fast.watch import pivots
 from ..model import Model, tree_terms
 from ..spatial._elementary import sqrt
-from .straight import shifted_and_turned, turned, watched
+from .straight import shifted_and_turned, turned
 
 __all__ = ["arrive", "middle_of_step", "placements_of"]
 
@@ -41,13 +41,10 @@ def middle_of_step(model: Model, frames: tuple[str, ...], q: Array, v: Array, ha
         there = Once(lambda q, u: shifted_and_turned(model, q, u))
         rows = Once(lambda q: rows_of(model, frames, q))
 
-        def place(q: Array, u: Array) -> tuple[Array, list[Any]]:
-            return there(q, u), watched(model, u)
-
         def white(q: Array, u: Array, damping: Array) -> tuple[Array, list[Any]]:
             return white_inverse(model, there(q, u), damping)
 
-        yield Quantity("q", ("q", "a"), place)
+        yield Quantity("q", ("q", "a"), lambda q, u: (there(q, u), []))
         yield Quantity("v", ("v", "a"), lambda v, u: (turned(model, v, u), []))
         yield Quantity("M", ("q", "a"), lambda q, u: (crba(model, there(q, u)), []))
         yield Quantity("white", ("q", "a", "tau"), white)
@@ -71,7 +68,7 @@ def arrive(model: Model, frames: tuple[str, ...], q: Array, v: Array, back: Arra
         there = Once(lambda q, u: shifted_and_turned(model, q, u))
 
         def place(q: Array, back: Array, way: Array) -> tuple[Array, list[Any]]:
-            return there(q, here(way, back)), [*watched(model, back), *watched(model, way)]
+            return there(q, here(way, back)), []
 
         def speed(v: Array, back: Array, way: Array) -> tuple[Array, list[Any]]:
             return turned(model, turned(model, v, back), here(way, back)), []

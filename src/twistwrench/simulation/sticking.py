@@ -29,7 +29,7 @@ from ..fast.recording import record
 from ..model import Model, tree_terms
 from ..spatial import SE3
 from ..spatial.rotation import cross_matrix
-from .straight import shifted_and_turned, turned, turning_rate, watched
+from .straight import shifted_and_turned, turned, turning_rate
 
 __all__ = ["Program", "StickingStep", "prepared_sticking"]
 
@@ -145,7 +145,7 @@ class Sticking:
         there, new = shifted_and_turned(model, q, way), turned(model, straight, way)
         place = self.corners(rows.placement) @ axes.mT
         height = self.corners(contact_rows(model, there, 0 * v, self.contacts).placement) @ axes[2]
-        questions = [*equations.watched(model, DOUBLE), *watched(model, half), *watched(model, way)]
+        questions = [*equations.watched(model, DOUBLE)]
         points = np.stack([*loose, *ends, *pushes]).reshape(6, self.k, 3)
         return [np.stack(speeds), points, place, there, new, height], questions
 
