@@ -89,6 +89,7 @@ def worst(model, s, who):
             continue
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("recipe", sampled(HARD, 2), ids=lambda recipe: str(recipe.changed))
 def test_no_error_is_above_the_estimate(recipe):
     found = list(worst(recipe.model, recipe.state, ("textbook", "fast", "float32")))

@@ -24,6 +24,7 @@ def test_validate_prints_a_table_and_succeeds(capsys):
     assert err == ""
 
 
+@pytest.mark.slow
 def test_validate_without_a_name_takes_go2_and_several_names_a_table_each(capsys):
     assert main(["validate", "--states", "1", "--truths", "1"]) == 0
     assert capsys.readouterr().out.startswith("go2: floating base, 13 moving bodies")
@@ -102,6 +103,7 @@ def test_json_goes_to_stdout_alone(capsys):
     assert found["reports"][0]["rows"][0]["ours_vs_truth"] < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ["ascii", pytest.param("cp1252", marks=pytest.mark.slow)])
 def test_letters_that_the_output_lacks_are_shown_by_their_numbers(encoding):
     def said(*arguments):

@@ -80,6 +80,7 @@ def test_equilibrium_and_accuracy_are_shown_as_they_are_read():
     assert next(parsed(accuracy._repr_html_()).iter("pre")).text == str(accuracy)
 
 
+@pytest.mark.slow
 def test_what_is_cheapest_is_a_table_with_the_choice_marked():
     motion = tw.motions.walk(GO2)
     found = tw.Scene("go2").cheapest(0.1, motion, held_out=tw.motions.trot(GO2))

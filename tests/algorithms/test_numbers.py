@@ -19,6 +19,7 @@ TREES = [Recipe(6, seed=1, base="floating"), Recipe(7, seed=4, branching=1.0), R
 # ---------------------------------------------------------------- number types
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     "dtype",
     [

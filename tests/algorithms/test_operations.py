@@ -98,6 +98,7 @@ def test_the_table_of_the_page_is_counted(page):
         assert table(page)[name] == [model.nv, *expected], name
 
 
+@pytest.mark.slow
 def test_the_code_of_the_page_runs():
     blocks = re.findall(r"```python\n(.*?)```", (DOCS / "mass_matrix.md").read_text(encoding="utf-8"), re.DOTALL)
     assert len(blocks) == 5

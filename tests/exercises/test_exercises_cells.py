@@ -64,6 +64,7 @@ def test_the_hints_come_one_click_at_a_time():
     assert "hint 1" not in html(check("49.0.2", right, language="en"))
 
 
+@pytest.mark.slow
 def test_a_large_array_has_a_map():
     def mass_matrix_by_rnea(model, q):
         return np.ones((model.nv, model.nv))
@@ -206,6 +207,7 @@ def test_a_function_that_was_sent_shares_the_names_of_its_module():
     assert (function(np.eye(3), np.zeros(3), np.ones(3)) == 1).all()
 
 
+@pytest.mark.slow
 def test_nothing_forks(monkeypatch):
     """A copy of a process with threads may hold a lock for ever."""
     monkeypatch.setattr(os, "fork", lambda: pytest.fail("forked"))
@@ -222,6 +224,7 @@ def test_the_progress_is_that_of_the_section():
     assert "of 5 exercises" in after
 
 
+@pytest.mark.slow
 def test_a_notebook_shows_it(tmp_path):
     nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: no notebook is run")
     nbclient = pytest.importorskip("nbclient", reason="nbclient is not installed: no notebook is run")

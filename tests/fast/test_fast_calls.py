@@ -120,6 +120,7 @@ def test_unknown_names_are_refused():
     fast.dynamics(GO2, Q, V, contacts=["FR_fot"], want={"h"})  # nobody asked for J_c
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("n", [1, 10])
 def test_names_may_come_from_an_iterator(n):
     q, v = np.tile(Q, (n, 1)), np.tile(V, (n, 1))
@@ -272,6 +273,7 @@ def test_out_may_be_an_input(states, count):
     np.testing.assert_array_equal(tau, qdd)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("batch", [(), (3,), (12,)])
 @pytest.mark.parametrize("base", ["fixed", "floating"])
 def test_contacts_may_be_none_or_on_the_world(batch, base):

@@ -35,6 +35,7 @@ def test_every_kind_of_joint_is_looked_at():
     assert ours <= {*KINDS}
 
 
+@pytest.mark.one_case
 @KIND
 def test_a_complex_step_gives_the_derivatives(kind):
     model, h = tree(kind), 1e-30

@@ -57,6 +57,7 @@ every = pytest.mark.parametrize(
 # ---------------------------------------------------------------- what every motion promises
 
 
+@pytest.mark.one_case
 @every
 def test_feet_that_stand_do_not_move(name, kind):
     model, m = robot(name), motion(name, kind)
@@ -110,6 +111,7 @@ def test_two_feet_with_soles_carry_all_motions(kind):
     assert ground(robot("humanoid"), motion("humanoid", kind)).margin.min() > 0
 
 
+@pytest.mark.slow
 def test_a_crawl_and_a_jump_of_go2_keep_the_pressure_inside_the_polygon_and_a_trot_does_not():
     """By as much as docs/templates.md says."""
     inside = {kind: ground(robot("go2"), motion("go2", kind)).margin.min() for kind in NAMES}
@@ -119,6 +121,7 @@ def test_a_crawl_and_a_jump_of_go2_keep_the_pressure_inside_the_polygon_and_a_tr
 # ---------------------------------------------------------------- v is the rate of q, a that of v
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("kind", NAMES)
 def test_velocity_and_acceleration_are_derivatives_by_a_complex_step(kind):
     standing, course = plan("go2", kind)

@@ -34,6 +34,7 @@ def same(got, expected, tolerance=1e-13):
     np.testing.assert_allclose(np.asarray(got).astype(float), expected, rtol=0, atol=tolerance * np.abs(expected).max())
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("name", ["go2", "double_pendulum", "cart_pole"])
 def test_fractions_give_what_doubles_give(name):
     model = tw.load(name)

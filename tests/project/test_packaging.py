@@ -185,6 +185,7 @@ for robot in tw.robots():
 """
 
 
+@pytest.mark.slow
 def test_numpy_lxml_and_tqdm_are_enough_to_compute_with_the_robots_that_come_along():
     optional = {*HEAVY, "viser", "daqp", "dask", "jax", "PIL"} - {"lxml", "tqdm"}
     lines = python(BARE.replace("{optional}", repr(optional))).splitlines()

@@ -145,6 +145,7 @@ def test_what_is_held_out_judges_the_choice_and_does_not_make_it(found):
     assert not replace(found, tolerance={"tau": found.best.worst("tau")}, margin=1.0).holds  # it is worse in a trot
 
 
+@pytest.mark.slow
 def test_several_motions_are_judged_together():
     scene, some = tw.Scene(GO2), [motions.walk(GO2, samples=5), motions.trot(GO2, samples=4)]
     both, each = quick(scene, some), [quick(scene, one) for one in some]
@@ -346,6 +347,7 @@ def test_the_radius_of_gyration_is_that_of_the_templates():
     )
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("base", ["planar", "fixed"])
 def test_what_another_base_costs_is_a_row(base):
     walk = motions.walk(GO2, samples=4)

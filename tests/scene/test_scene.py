@@ -133,6 +133,7 @@ def test_gravity_is_the_scenes():
 # ---------------------------------------------------------------- what it computes
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("batch", sampled([(3, 1, 2), (1,), (20,), (0,), ()], 2))
 @pytest.mark.parametrize("dtype", sampled([np.float64, np.float32, np.longdouble, complex], 2))
 def test_dynamics_are_the_textbooks(batch, dtype):
@@ -403,6 +404,7 @@ def test_what_is_carried_counts_where_the_robot_stands():
 # ---------------------------------------------------------------- who touches when
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("robot", ["go2", "humanoid"])
 def test_the_phases_of_a_walk_are_scenes_whose_contacts_stand_still(robot):
     """J_c v = 0 and J_c a + J̇_c v = 0 in each phase, of point feet and of soles; their forces bear the motion."""
@@ -558,6 +560,7 @@ def test_a_quantity_or_a_state_that_is_none_is_refused():
 # ---------------------------------------------------------------- its page
 
 
+@pytest.mark.slow
 def test_the_page_runs_and_both_languages_have_the_same_code_and_numbers():
     english, chinese = PAGES
     sources, twins = (blocks(path.read_text(encoding="utf-8"), 0, 10**6) for path in (english, chinese))

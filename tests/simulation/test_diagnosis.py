@@ -22,6 +22,7 @@ def wheel(inertia):
     return builder.build()
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", STABLE)
 def test_a_damped_wheel_is_stable_up_to_the_step_that_the_message_names(method):
     """v⁺ = R(−dt kd / D) v, with the polynomial R of the method: closed form."""

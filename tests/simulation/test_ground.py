@@ -101,6 +101,7 @@ def test_the_largest_push_before_a_box_slips_is_mu_m_g(share, way):
     assert total[-1] == pytest.approx(expected, abs=1e-3)  # the box turns by as little as the solver leaves open
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("own", [False, True])
 def test_a_ball_bounces_to_e2_of_its_height_and_with_e_1_for_ever(own):
     """The step that hits ends on the ground, with e times the speed at which the fall ends there."""

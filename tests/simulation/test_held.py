@@ -118,6 +118,7 @@ def test_two_robots_in_one_model_are_two_robots():
     assert two.standing().shape == (19 + other.nq,)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(("method", "share"), [("rk4", 1e-9), ("time-stepping", 2e-3)])
 def test_two_robots_that_hold_each_other_keep_their_momentum_together_and_each_gets_what_the_other_loses(method, share):
     """At dt = 2 ms, by methods of order 4 and 1."""

@@ -111,6 +111,7 @@ def test_the_ground_is_computed_by_a_program_for_points_soles_and_balls():
         assert {type(program).__name__ for program in made} == {"Program"}
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("share", [0.98, 1.02])
 def test_a_stiff_humanoid_that_is_pushed_tips_over_its_toes_beyond_the_energy_that_lifts_its_centre_over_them(share):
     h = tw.load("humanoid")

@@ -112,6 +112,7 @@ def free_flight(model, T, R0, w0, R, w, speed) -> Exact:
 # ---------------------------------------------------------------- closed forms
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", ORDERS)
 @pytest.mark.parametrize("exact", [pendulum, symmetric_top, asymmetric_top], ids=lambda f: f.__name__)
 def test_the_order_is_the_one_of_theory(exact, method):
@@ -139,6 +140,7 @@ def tumble(model, rng=0):
     return model.random_configuration(rng=rng), rng.standard_normal(model.nv)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("seed", range(3))
 def test_the_momentum_of_a_robot_that_floats_freely_is_kept_to_rounding(seed):
     """By the variational method, at a step at which midpoint is visibly off."""
@@ -209,6 +211,7 @@ def test_the_variational_method_goes_back_the_way_it_came():
     assert np.abs(back.v[-1] + there.v[0]).max() < 1e-12
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", sampled(METHODS, 2))
 def test_where_a_robot_starts_makes_no_difference_without_gravity(method):
     """All methods work in the body's terms: a motion that is moved and turned is the same motion."""

@@ -123,6 +123,7 @@ def test_a_momentum_is_seen_to_the_last_digit_whatever_else_is_in_the_batch():
         assert np.abs(batch[1] - one).max() < 1e-14
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", SMOOTH)
 @pytest.mark.parametrize("dtype", [np.float32, np.longdouble])
 def test_the_number_type_is_kept(method, dtype):

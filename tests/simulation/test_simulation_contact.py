@@ -143,6 +143,7 @@ def test_a_scene_brings_its_model_and_its_contacts():
     assert np.abs(a.q - b.q).max() < 1e-14
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", ["rk4", "variational"])
 def test_the_wrenches_of_a_scene_push(method):
     """A force on a frame off the base, in the axes of the world: as a policy that has Jᵀ f."""

@@ -26,6 +26,7 @@ def world(s, k=-1):
 # ---------------------------------------------------------------- steps in axes that do not turn
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("spin", [[0, 0, 35.0], [35.0, 0, 0], [20.0, -30.0, 10.0]])
 def test_a_free_body_keeps_its_speed_and_goes_straight_on(spin):
     model = ball(0.1, gravity=(0, 0, 0))
@@ -66,6 +67,7 @@ def test_a_step_that_goes_straight_shifts_then_turns_and_the_velocity_turns_back
 # ---------------------------------------------------------------- rolling and spinning
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("r", "mu", "speed"), [(0.1, 0.0, 0.0), (0.02, 0.5, 0.1), (0.0025, 0.5, 0.001), (0.1, 1e6, 3.5)]
 )

@@ -121,6 +121,7 @@ def test_a_template_of_the_whole_body_leaves_out_the_legs_alone():
 # ---------------------------------------------------------------- the command and the page
 
 
+@pytest.mark.slow
 def test_the_command_prints_and_writes(tmp_path, capsys):
     picture, file = tmp_path / "b.svg", tmp_path / "b.json"
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: the picture is not drawn")

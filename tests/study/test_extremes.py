@@ -107,6 +107,7 @@ def test_a_robot_at_rest_in_free_space_stays_there():
     assert not accelerations(model, s._replace(v=0 * s.v), 0 * s.v).any()
 
 
+@pytest.mark.slow
 def test_of_a_long_robot_some_columns_of_the_mass_matrix_are_judged(monkeypatch):
     recipe = Recipe()
     whole = truth(recipe.model, recipe.state)
@@ -138,6 +139,7 @@ def usual_errors():
     return {(o.algorithm, o.who): o.error for o in measure(Recipe(), pinocchio=False)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("unit", sampled(["length", "mass", "time"], 1))
 @pytest.mark.parametrize("scale", sampled([2.0**-30, 2.0**30], 1), ids=["1e-9", "1e9"])
 def test_the_same_robot_in_other_units_loses_nothing(unit, scale):
@@ -436,6 +438,7 @@ def test_the_page_counts_the_robots_of_the_grid(language):
     assert [int(number) for number in said] == [len(cells(full=full)) for full in (False, True)]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("error")
 def test_every_block_of_the_page_runs(capsys):
     first, parts = numbered("extremes")

@@ -23,6 +23,7 @@ def maker(monkeypatch):
     return importlib.import_module("programs")
 
 
+@pytest.mark.slow
 def test_the_code_of_the_page_runs_and_is_the_same_in_both_languages():
     texts = [page("compile", language).read_text(encoding="utf-8") for language in ("", ".zh-CN")]
     code = [blocks(text, 0, len(text)) for text in texts]

@@ -19,6 +19,7 @@ from ..sampling import sampled
 HUMANOID = tw.load("humanoid")
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("quantity", sampled(QUANTITIES, 2))
 def test_both_ways_are_asked_for_the_same(quantity):
     s = random_states(HUMANOID, 3)

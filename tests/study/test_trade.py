@@ -426,6 +426,7 @@ def test_an_effort_of_nothing_is_refused(name):
         Effort(**{name: 0})
 
 
+@pytest.mark.slow
 def test_the_base_and_the_seed_count():
     fixed, floating = (weigh("pendulum", base=b, only=["M"], effort=QUICK) for b in ("fixed", "floating"))
     assert "fixed base" in fixed.description
@@ -595,6 +596,7 @@ def test_the_humanoid_keeps_more_digits_by_aba_than_by_its_mass_matrix(maker):
         assert min(solved) > 4 * errors["tw.aba", number]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["", ".zh-CN"])
 def test_the_code_of_the_page_runs(language):
     path = page("trade", language)

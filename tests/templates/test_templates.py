@@ -378,6 +378,7 @@ def code_of(path):
     return blocks(text, 0, len(text))
 
 
+@pytest.mark.slow
 def test_the_page_runs():
     run(PAGES[0], code_of(PAGES[0]))
 

@@ -252,6 +252,7 @@ def test_the_tree_has_every_body_once_below_its_parent():
         assert len(depth) == trace.model.nbodies
 
 
+@pytest.mark.one_case
 def test_a_notebook_shows_the_same_lines_as_the_table(case):
     for trace in traces(case):
         html = trace._repr_html_().partition("<details>")[2]

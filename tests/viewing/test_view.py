@@ -228,6 +228,7 @@ def test_two_feet_on_the_ground_are_joined_by_a_line():
     np.testing.assert_allclose(np.sort(lengths), [0, 0, apart, apart], rtol=1e-5)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("ground", [None, tw.Ground()])
 def test_a_simulation_shows_its_own_contacts_and_forces(ground):
     """On a ground those of a step are shown where it ends: in the air there are none, and no polygon."""
@@ -756,6 +757,7 @@ def test_the_command_says_what_it_cannot_do(tmp_path, capsys, monkeypatch):
 # ---------------------------------------------------------------- docs/view.md
 
 
+@pytest.mark.slow
 def test_the_part_of_the_page_that_needs_a_browser_runs_too(tmp_path, monkeypatch):
     pytest.importorskip("viser", reason="viser is not installed: the browser is not checked")
     monkeypatch.chdir(tmp_path)
@@ -765,6 +767,7 @@ def test_the_part_of_the_page_that_needs_a_browser_runs_too(tmp_path, monkeypatc
     assert (tmp_path / "trot.html").stat().st_size > 500_000
 
 
+@pytest.mark.slow
 def test_the_page_runs_prints_what_it_shows_and_is_the_same_in_both_languages(capsys):
     import matplotlib.pyplot as plt
 
