@@ -18,8 +18,10 @@ import numpy as np
 import twistwrench as tw
 from twistwrench.scene.costs import Costs
 
+from .robots import shared
+
 FOLDERS = ["", ".bridge", ".fast", ".motions", ".newton_euler_3d", ".plot", ".templates"]
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 FEET = [tw.PointContact(foot, 0.6) for foot in GO2.feet]
 REST, STAND = np.zeros(GO2.nv), GO2.standing()
 SCENE = tw.Scene("go2", contacts=FEET)
@@ -168,7 +170,7 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "Wrench.from_force": {"force": np.ones(3), "frame": "base"},
     "from_dh": {"a": np.ones(2), "alpha": np.zeros(2), "d": np.zeros(2), "convention": "classical"},
     "from_screw_axes": {"M": np.eye(4), "Slist": np.eye(6)[:, :2]},
-    "screw_axes": {"model": tw.load("planar_arm"), "frame": "tool"},
+    "screw_axes": {"model": shared("planar_arm"), "frame": "tool"},
     "bridge.from_pinocchio_f_ext": {"f_ext": [np.zeros(6)] * GO2.nbodies},
     "compile": {"want": "gravity", "contacts": GO2.feet},
     "contact_jacobian": {"contacts": GO2.feet},

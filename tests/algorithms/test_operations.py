@@ -16,12 +16,13 @@ from twistwrench.algorithms.factorization import factorize, inboard_dofs, solve_
 from twistwrench.algorithms.inverse_mass import unit_force_responses
 from twistwrench.model import tree_terms
 
+from ..robots import shared
 from .counting import Counted, counted, counted_tree, counting
 
 DOCS = Path(__file__).parents[2] / "docs"
 ROBOTS = {
-    "go2": (tw.load("go2"), tw.load("go2").feet),
-    "humanoid": (tw.load("humanoid"), tw.load("humanoid").feet),
+    "go2": (shared("go2"), shared("go2").feet),
+    "humanoid": (shared("humanoid"), shared("humanoid").feet),
     "chain of 18": (tw.chain(18), ["rod_18"]),
 }
 

@@ -17,8 +17,10 @@ from twistwrench.motions.inverse_kinematics import body_rates, follow
 from twistwrench.motions.jumping import FOUR_LEGS, Leap
 from twistwrench.motions.legs import stand
 
+from ..robots import shared
+
 G, H = 9.81, 1e-20
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 OWN = ("go2", "humanoid")
 DATA = ("solo12", "talos_reduced", "g1")
 NAMES = tuple(MOTIONS)
@@ -325,7 +327,7 @@ def test_a_jump_whose_turning_does_not_come_to_rest_is_none(monkeypatch):
 
 def test_what_has_no_legs_cannot_walk():
     with pytest.raises(tw.ModelError, match="'planar_arm': expected a floating base and feet, got a fixed one"):
-        tw.motions.walk(tw.load("planar_arm"))
+        tw.motions.walk(shared("planar_arm"))
     with pytest.raises(tw.ModelError, match="expected a leg of 3 joints"):
         tw.motions.walk(replace(robot("go2"), feet=("FL_calf_joint", "FR_hip_joint")))
     with pytest.raises(tw.ModelError, match="'fork': its legs share joints"):
@@ -402,7 +404,7 @@ def test_arms_swing_against_the_legs_of_their_side():
 
 
 def test_a_motion_keeps_its_contacts_when_the_callers_change():
-    walk = tw.motions.walk(tw.load("go2"), samples=3)
+    walk = tw.motions.walk(shared("go2"), samples=3)
     given = {name: np.array(getattr(walk, name)) for name in ("t", "q", "v", "a", "contacts")}
     motion = tw.motions.Motion("mine", given["t"], given["q"], given["v"], given["a"], walk.feet, given["contacts"])
     for x in given.values():

@@ -15,8 +15,10 @@ from study.trade import SHORT, weigh
 import twistwrench as tw
 from twistwrench.cli import main
 
-GO2 = tw.load("go2")
-PENDULUM = tw.load("pendulum")
+from ..robots import shared
+
+GO2 = shared("go2")
+PENDULUM = shared("pendulum")
 
 
 @pytest.mark.parametrize(

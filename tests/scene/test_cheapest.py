@@ -12,10 +12,12 @@ from twistwrench.scene.candidates import Articulated, limbs, radius_of_gyration
 from twistwrench.scene.compiled import compile_law
 from twistwrench.templates import TEMPLATES, Template
 
+from ..robots import shared
+
 SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
 ARMS = ["*_shoulder_*", "*_elbow"]
 NEED = {"wrench": 0.02, "cop": 0.002, "forces": 0.02, "tau": 0.2}
-GO2, HUMANOID = tw.load("go2"), tw.load("humanoid")
+GO2, HUMANOID = shared("go2"), shared("humanoid")
 WALK = motions.walk(HUMANOID, samples=24)
 TROT = motions.trot(HUMANOID, samples=10)
 
@@ -220,7 +222,7 @@ def test_a_law_is_compiled_as_it_is_written():
         known = template.read(*state)
         (rate,) = compile_law(GO2, lambda *x, law=template.law: (law(*x),), known, [0])[0]()
         assert np.abs(rate - template.law(*known)).max() < 1e-13 * GO2.mass * 9.81
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     reach = motions.reach(arm, arm.neutral(), [1.0, -0.5, 0.2], samples=9)
     small = tw.lock_joints(arm, ["wrist"], arm.neutral())
     held = Articulated.of(arm, small.model, small.reduce)
@@ -298,7 +300,7 @@ def test_without_gravity_the_pendulum_does_not_apply_and_the_rest_does():
 
 
 def test_an_arm_has_no_templates_but_held_joints():
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     motion = motions.reach(arm, arm.neutral(), [1.0, -0.5, 0.2], samples=12)
     groups = {"tip": ["wrist"], "mid": ["elbow"], "all": ["*"]}
     need = {"tau": 100.0, "of": ["shoulder", "elbow"], "wrench": 0.1}

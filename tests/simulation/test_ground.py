@@ -12,6 +12,8 @@ import twistwrench as tw
 from twistwrench.simulation import cones, coulomb
 from twistwrench.spatial import rotation_to_quaternion
 
+from ..robots import shared
+
 G = 9.81
 HALF = np.array([0.1, 0.08, 0.05])  # m: half the sides of the box
 
@@ -28,7 +30,7 @@ def body(name, inertia, points):
 
 BOX = body("box", tw.SpatialInertia.from_box(2.0, 2 * HALF), [HALF * [x, y, -1] for x in (1, -1) for y in (1, -1)])
 BALL = body("ball", tw.SpatialInertia(1.0, np.zeros(3), 0.01 * np.eye(3)), [np.zeros(3)])
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 
 
 def corners(mu):
@@ -323,7 +325,7 @@ def test_a_foot_that_leaves_the_ground_and_one_that_slides_are_noted():
 
 
 def test_the_work_of_the_joint_forces_is_what_the_energy_gains():
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
     clock = {"dt": 0.002, "steps": 200, "dt_control": 0.01}
     s = tw.simulate(model, [0.3, 0.2], [0.0, 0.0], tau=lambda t, q, v: [0.5, -0.2 * np.sin(9 * t)], **clock)
     assert s.work.shape == s.t.shape
@@ -334,7 +336,7 @@ def test_the_work_of_the_joint_forces_is_what_the_energy_gains():
 def test_the_error_of_a_step_is_that_of_its_order(method, order):
     errors = []
     for steps in (10, 20):
-        s = tw.simulate(tw.load("pendulum"), [2.0], [0.5], dt=1.0 / steps, steps=steps, method=method)
+        s = tw.simulate(shared("pendulum"), [2.0], [0.5], dt=1.0 / steps, steps=steps, method=method)
         errors.append(s.step_error()[1])
     assert np.log2(errors[0] / errors[1]) == pytest.approx(order + 1, abs=0.6)
 
@@ -468,7 +470,7 @@ def test_a_joint_that_begins_beyond_its_range_is_refused():
 
 
 def test_the_first_joint_of_a_fixed_base_is_named_and_not_the_world():
-    arm = replace(tw.load("pendulum"), lower=[-1.0], upper=[1.0])
+    arm = replace(shared("pendulum"), lower=[-1.0], upper=[1.0])
     with pytest.raises(ValueError, match=f"q: joint {arm.joint_names[1]!r} begins 0.3 beyond its range"):
         tw.simulate(arm, [1.3], [0.0], dt=0.01, steps=1, method="time-stepping")
 

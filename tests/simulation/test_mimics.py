@@ -7,9 +7,11 @@ import twistwrench as tw
 from twistwrench.algorithms.mimic import follow
 from twistwrench.simulation import METHODS
 
+from ..robots import shared
+
 
 def arm():
-    return follow(tw.load("planar_arm"), {"wrist": ("elbow", -1.0, 0.5)})
+    return follow(shared("planar_arm"), {"wrist": ("elbow", -1.0, 0.5)})
 
 
 def shake(t, q, v):
@@ -77,7 +79,7 @@ def test_what_takes_no_couplings_refuses_it_by_name():
 @pytest.mark.slow
 def test_a_robot_whose_knees_follow_lands_on_the_ground():
     """Both hind knees by one coordinate: they stay alike, and in the end the feet carry the weight."""
-    go2 = tw.load("go2")
+    go2 = shared("go2")
     model = follow(go2, {"RR_calf_joint": ("RL_calf_joint", 1.0, 0.0)})
     feet = [tw.PointContact(foot, 0.6) for foot in go2.feet]
     stand = go2.standing()[model.kept_q]

@@ -14,10 +14,11 @@ from twistwrench.simulation.variational import momenta
 
 from ..pages import blocks, page
 from ..pages import run as run_page
+from ..robots import shared
 from ..strategies import Recipe
 
-PENDULUM = tw.load("pendulum")
-DOUBLE = tw.load("double_pendulum")
+PENDULUM = shared("pendulum")
+DOUBLE = shared("double_pendulum")
 SMOOTH = [name for name in METHODS if name != "time-stepping"]  # which keeps the joints' ranges, in double precision
 
 
@@ -236,7 +237,7 @@ def test_the_summary_says_what_was_done_and_what_changed():
 
 
 def test_the_summary_of_a_flight_has_momenta_without_that_of_the_weight():
-    model = tw.load("go2")
+    model = shared("go2")
     s = tw.simulate(model, model.standing(), np.zeros(model.nv), dt=0.1, steps=5)
     rows = str(s).splitlines()
     assert len(rows) == 5
@@ -337,7 +338,7 @@ def test_forces_of_the_wrong_shape_are_refused_with_the_time():
 
 
 def test_the_torques_of_the_motors_alone_are_refused_with_a_hint():
-    model = tw.load("go2")
+    model = shared("go2")
     with pytest.raises(tw.ShapeError, match=r"got \(12,\) at t = 0; the six entries of the floating base come first"):
         tw.simulate(model, model.standing(), np.zeros(18), dt=0.01, steps=1, tau=lambda t, q, v: np.zeros(12))
 
@@ -360,7 +361,7 @@ def test_a_motion_that_leaves_all_bounds_is_refused_with_time_and_joint(method, 
 
 
 def test_a_base_that_turns_more_than_once_in_a_step_is_refused():
-    model = replace(tw.load("go2"), gravity=np.zeros(3))
+    model = replace(shared("go2"), gravity=np.zeros(3))
     v = np.zeros(18)
     v[0] = 100
     with pytest.raises(tw.DivergenceError, match="turns by more than a whole turn in one step"):

@@ -9,6 +9,7 @@ import twistwrench as tw
 from twistwrench.simulation.straight import go_straight, in_turned_axes, turning
 
 from ..mechanisms import G
+from ..robots import shared
 from .test_ground import BOX, HALF, body, corners
 
 
@@ -51,7 +52,7 @@ def test_a_puck_and_a_body_that_floats_in_a_tree_go_straight_on():
 
 
 def test_a_step_that_goes_straight_shifts_then_turns_and_the_velocity_turns_back():
-    model, rng = tw.load("go2"), np.random.default_rng(0)
+    model, rng = shared("go2"), np.random.default_rng(0)
     q, u, v = model.random_configuration(rng=rng), 0.3 * rng.normal(size=18), rng.normal(size=18)
     there, base = go_straight(model, q, u), model.joint_names[1]
     before, after = (tw.frame_placement(model, x, base) for x in (q, there))

@@ -7,6 +7,8 @@ import twistwrench as tw
 from twistwrench.simulation import METHODS
 from twistwrench.simulation.straight import go_straight, in_turned_axes, straight_rate
 
+from ..robots import shared
+
 EXPLICIT = ("euler", "semi-implicit", "midpoint", "rk4")
 
 
@@ -89,7 +91,7 @@ def test_the_rate_of_a_straight_way_is_its_derivative():
 
 def test_the_semi_implicit_method_keeps_the_energy_nearly_where_m_is_constant():
     """A pendulum, and a spinning ball on a spring: the error of the last swings is that of the first."""
-    swings = tw.simulate(tw.load("pendulum"), [2.0], [0.0], dt=0.02, steps=4000, method="semi-implicit")
+    swings = tw.simulate(shared("pendulum"), [2.0], [0.0], dt=0.02, steps=4000, method="semi-implicit")
     model = ball()
 
     def spring(t, q, v):

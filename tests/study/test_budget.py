@@ -16,8 +16,9 @@ import twistwrench as tw
 from twistwrench.motions.support import needs
 
 from ..pages import page
+from ..robots import shared
 
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 WALK = tw.motions.walk(GO2, samples=60)
 TROT = tw.motions.trot(GO2, samples=60)
 

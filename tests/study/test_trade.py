@@ -15,6 +15,7 @@ import twistwrench as tw
 from twistwrench import timing as clock
 
 from ..pages import blocks, page, run
+from ..robots import shared
 
 pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth to hold anything against")
 
@@ -417,7 +418,7 @@ def test_misuse_has_status_2(wrong, capsys):
 
 def test_a_model_has_its_base_already():
     with pytest.raises(ValueError, match=r"base: a Model has its base \(fixed\) already, got 'floating'"):
-        weigh(tw.load("pendulum"), base="floating")
+        weigh(shared("pendulum"), base="floating")
 
 
 @pytest.mark.parametrize("name", ["states", "batch", "rounds"])
