@@ -204,6 +204,7 @@ def test_an_interrupt_says_so_by_its_status(monkeypatch):
     assert main(["validate", "pendulum"]) == 130
 
 
+@pytest.mark.slow
 def test_help_is_quick_and_a_reader_that_leaves_is_no_error():
     script = "import sys; from twistwrench.cli import main; sys.exit(main(['robots']))"
     process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE)

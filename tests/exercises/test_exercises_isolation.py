@@ -53,6 +53,7 @@ def said(folder, name, language="en", seed=None):
     return verdict.state, " ".join(message.split())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "body", "line"),
     sampled(

@@ -158,6 +158,7 @@ def test_the_right_answer_is_not_there_while_the_students_function_runs():
     assert verdict("skew", skew).state == "wrong"
 
 
+@pytest.mark.slow
 def test_what_the_package_calls_by_itself_is_not_held_against_the_student():
     def by_levers(model, q):
         base = tw.forward_kinematics(model, q).placement[1]

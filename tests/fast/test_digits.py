@@ -73,6 +73,7 @@ def of_go2(name, dtype=np.float64):
 # ---------------------------------------------------------------- programs of 32 digits
 
 
+@pytest.mark.slow
 @pytest.mark.one_case
 @pytest.mark.parametrize(("name", "backend"), sampled(WAYS, 2, several=True))
 def test_go2_has_thirty_digits(name, backend):

@@ -198,6 +198,7 @@ def assert_same(model, s, contacts, *, rtol=1e-12):
         np.testing.assert_allclose(ours[name], right, rtol=0, atol=bound * size, err_msg=name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("batch", BATCHES)
 @pytest.mark.parametrize("base", sampled(["floating", "fixed"], 1))
 def test_any_batch_shape_works(batch, base):

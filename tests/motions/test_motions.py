@@ -344,6 +344,7 @@ def test_gravity_must_pull_down():
         ground(tilted, motion("go2", "walk"))
 
 
+@pytest.mark.slow
 def test_steps_that_are_too_long_are_refused():
     standing = stand(robot("go2"))
     steps = Steps(standing, replace(CRAWL, speed=0.5))

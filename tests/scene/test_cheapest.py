@@ -198,6 +198,7 @@ def test_the_table_and_the_picture_show_every_option_and_the_choice(found):
     assert [text.get_text().split(",")[0] for text in ax.texts] == [f"{o.worst():.2g}" for o in found.options]
 
 
+@pytest.mark.slow
 def test_the_order_is_the_same_whatever_the_clock_says(monkeypatch):
     """By operations: those that come later are quicker by this clock. Of what is no program only the time is known."""
     monkeypatch.undo()

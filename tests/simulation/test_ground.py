@@ -276,6 +276,7 @@ def test_a_sole_stands_on_its_corners_and_rolls_over_its_edge():
 # ---------------------------------------------------------------- what a motion is worth
 
 
+@pytest.mark.slow
 def test_a_go2_that_hangs_on_its_own_feet_says_so():
     """Passive on feet that stick: they would slip, then pull; the legs leave their ranges and the trunk sinks."""
     q, rest = GO2.standing(), np.zeros(18)
@@ -379,6 +380,7 @@ def test_a_joint_stops_at_the_end_of_its_range_and_may_come_back():
     assert turn(rotor(lower=-0.1, upper=0.1), 0.0, q=0.1, tau=-1.0).q[-1] < 0.1
 
 
+@pytest.mark.slow
 def test_the_gain_of_a_drive_as_damping_needs_no_short_steps():
     """kd = 20 on a Go2 at 2 ms; as a policy it wants 0.25 ms, and here it diverges."""
     stiff = replace(GO2, damping=np.r_[np.zeros(6), np.full(12, 20.0)])

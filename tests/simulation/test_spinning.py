@@ -157,6 +157,7 @@ def test_a_box_on_one_corner_is_pushed_there_and_nowhere_else(mu):
         assert np.max(s.system.stepping.missed) < 1e-7
 
 
+@pytest.mark.slow
 def test_neither_friction_nor_restitution_nor_the_ground_makes_another_program():
     model, q, made = tw.load("go2"), tw.load("go2").standing(), []
     q[2] += 0.1

@@ -134,6 +134,7 @@ def test_forces_that_were_held_are_held_again():
     assert 0 < max(error) < 1e-7
 
 
+@pytest.mark.slow
 def test_a_motion_and_an_error_under_a_lambda_leave_a_worker():
     """As a process does it: by a pickle, in which the policy stays behind."""
 

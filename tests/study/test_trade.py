@@ -113,7 +113,7 @@ def floating() -> Trade:
 
 @pytest.fixture(scope="module")
 def fixed() -> Trade:
-    return weigh("double_pendulum", effort=SHORT)
+    return weigh("double_pendulum", effort=QUICK)
 
 
 def approximate(p: Point) -> bool:
