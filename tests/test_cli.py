@@ -160,6 +160,7 @@ def test_a_file_is_neither_emptied_nor_made_before_there_is_something_to_write(t
     assert not new.exists()
 
 
+@pytest.mark.slow
 def test_the_seed_changes_the_states(capsys):
     def rows(seed):
         main(["validate", "cart_pole", *QUICK, "--seed", seed, "--json", "-"])

@@ -89,6 +89,7 @@ def table(page):
     return {name: [int(x.replace(" ", "")) for x in cells.split("|")] for name, cells in rows}
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("page", ["mass_matrix.md", "mass_matrix.zh-CN.md"])
 def test_the_table_of_the_page_is_counted(page):
     for name, (model, frames) in ROBOTS.items():

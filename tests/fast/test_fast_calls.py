@@ -377,6 +377,7 @@ def bundle(chains: int, links: int) -> tw.Model:
     return built.build()
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("chains", "links", "want", "reason"),
     [
@@ -467,6 +468,7 @@ def test_a_program_goes_with_its_model_and_is_not_pickled():
     assert [reference() for reference in kept] == [None, None]
 
 
+@pytest.mark.slow
 def test_more_sets_of_contacts_than_are_remembered_are_right(monkeypatch):
     monkeypatch.setattr(programs, "MAX_CACHED_PROGRAMS", 3)
     monkeypatch.setattr(llvm, "available", lambda: False)

@@ -166,6 +166,7 @@ def test_the_table_of_speeds_fits_into_a_hundred_columns():
     ]
 
 
+@pytest.mark.slow
 def test_the_tables_and_words_of_a_trade_fit_into_a_hundred_columns():
     pytest.importorskip("mpmath", reason="the truth is computed by mpmath")
     text = str(weigh("pendulum", only=["FD"], effort=SHORT))

@@ -264,6 +264,7 @@ def test_held_joints_that_are_still_cost_nothing():
     assert some["hold arms"].leaves_out == "The motion of 8 of 21 joints."
 
 
+@pytest.mark.slow
 def test_a_robot_loaded_from_a_file_is_judged_as_the_one_of_the_catalogue():
     """It knows no feet; the height of the pendulum is that above the scene's contacts."""
     unknown = replace(GO2, feet=(), postures={})

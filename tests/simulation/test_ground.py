@@ -58,6 +58,7 @@ def downhill(ground):
 # ---------------------------------------------------------------- closed forms
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("way", [0.0, 0.7])
 def test_a_box_that_slides_stops_after_v2_over_2_mu_g_in_any_direction(way):
     """Of order 1 in dt: q goes along the velocity at the end of each step, which is short by v dt / 2."""

@@ -360,6 +360,7 @@ def test_a_motion_that_leaves_all_bounds_is_refused_with_time_and_joint(method, 
         run(v=np.ones(2, dtype), dt=0.1, steps=500, tau=lambda t, q, v: 100 * v, method=method)
 
 
+@pytest.mark.slow
 def test_a_base_that_turns_more_than_once_in_a_step_is_refused():
     model = replace(shared("go2"), gravity=np.zeros(3))
     v = np.zeros(18)

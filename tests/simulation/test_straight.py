@@ -18,6 +18,7 @@ def ball(gravity=(0.0, 0.0, 0.0)):
     return tw.Builder("ball", base="floating", root="ball", root_inertia=inertia, gravity=gravity).build()
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("direction", [(0, 0, 1), (1, 0, 0), (0.6, -0.48, 0.64)])
 def test_a_spinning_ball_goes_straight_on(method, direction):
@@ -28,6 +29,7 @@ def test_a_spinning_ball_goes_straight_on(method, direction):
     np.testing.assert_allclose(motion.q[-1, :3], [7.0, 0, 0], rtol=0, atol=1e-11)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", METHODS)
 def test_a_spinning_puck_goes_straight_on(method):
     builder = tw.Builder("ice", base="fixed", gravity=(0, 0, 0))

@@ -41,6 +41,7 @@ def fifty_digits():
 ODD = [Recipe(mass_ratio=1e9), Recipe(light=0.0), Recipe(leaves=True, tip=1e-12), Recipe(distance=1e9, length=1e-9)]
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("recipe", ODD, ids=lambda recipe: str(recipe.changed))
 def test_without_torques_and_at_rest_every_robot_falls_as_one_body(recipe):
     model, s = recipe.model, recipe.state
@@ -175,6 +176,7 @@ def test_the_speed_of_the_base_is_its_own():
     assert np.array_equal(fast.a, usual.a)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("length", [1e-9, 1e-3, 1.0, 1e3])
 def test_a_solver_s_choice_of_pivots_does_not_depend_on_units(length):
     """`fast.aba` of one state solved the base's 6 × 6 equations in kg and m: 2e-9 was lost where rotors are heavy."""
@@ -378,6 +380,7 @@ def test_the_map_shows_a_nan_in_red_what_is_refused_hatched_and_pairs_by_their_w
     assert [patch.get_hatch() for patch in said.patches] == ["/////"]  # sure of nothing
 
 
+@pytest.mark.slow
 def test_the_command_does_without_pinocchio_and_scipy(monkeypatch, capsys):
     for name in ("pinocchio", "scipy", "scipy.spatial.transform"):
         monkeypatch.setitem(sys.modules, name, None)

@@ -53,6 +53,7 @@ def test_every_quantity_is_timed_in_every_way_and_shown():
     assert all(meaning in text for meaning in QUANTITIES.values())
 
 
+@pytest.mark.slow
 def test_without_pinocchio_times_stand_alone(monkeypatch):
     text = table(HUMANOID, [Speed("rnea", "fast", 12.3456, 12, 13, None, disturbed=True)])
     assert "Pinocchio is not installed" in text

@@ -385,6 +385,7 @@ def test_what_is_below_the_picture_is_said(errors, said):
     assert [text.get_text().removeprefix("on the bottom line: ") for text in ax.texts] == said
 
 
+@pytest.mark.slow
 def test_the_command_shows_a_bar_if_told_to(capsys):
     assert study_main(["trade", "pendulum", "--short", "--only", "M", "--progress"]) == 0
     assert "M: " in capsys.readouterr().err
@@ -441,6 +442,7 @@ def test_a_robot_that_does_not_move_is_refused():
         weigh(tw.Builder("stone").build())
 
 
+@pytest.mark.slow
 def test_without_pinocchio_and_scipy_their_ways_are_left_out_and_a_line_says_so(monkeypatch):
     for name in ("pinocchio", "scipy", "scipy.linalg", "scipy.spatial.transform"):
         monkeypatch.setitem(sys.modules, name, None)
@@ -610,6 +612,7 @@ def test_the_code_of_the_page_runs(language):
     )
 
 
+@pytest.mark.slow
 def test_a_trade_that_is_stopped_keeps_what_was_measured(tmp_path, monkeypatch, capsys):
     pytest.importorskip("mpmath", reason="mpmath is not installed: the study has no truth")
     whole, calls = trade_run.measure, []

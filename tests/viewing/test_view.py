@@ -677,6 +677,7 @@ def test_meshes_without_their_reader_say_what_to_install(monkeypatch):
         shapes(shared("planar_arm"), find("planar_arm").path)
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_picture(tmp_path):
     assert main(["view", "go2", "--output", str(tmp_path / "go2.png")]) == 0
     assert (tmp_path / "go2.png").read_bytes().startswith(b"\x89PNG")
