@@ -60,7 +60,7 @@ def test_every_quantity_is_pinocchios(recipe):
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(200)
+@examples(60)
 def test_every_quantity_is_pinocchios_at_length(recipe):
     check_against_pinocchio(recipe)
 

@@ -317,7 +317,7 @@ def test_start_touches_nothing_that_is_there(tmp_path):
     assert len(kept) == len(new) + 1
 
 
-@pytest.mark.slow
+@pytest.mark.slow(draw=1)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_the_solutions_give_everything(tmp_path, language):
     start(tmp_path, language=language)
