@@ -18,8 +18,10 @@ import numpy as np
 import twistwrench as tw
 from twistwrench.scene.costs import Costs
 
+from .robots import shared
+
 FOLDERS = ["", ".bridge", ".fast", ".motions", ".newton_euler_3d", ".plot", ".templates"]
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 FEET = [tw.PointContact(foot, 0.6) for foot in GO2.feet]
 REST, STAND = np.zeros(GO2.nv), GO2.standing()
 SCENE = tw.Scene("go2", contacts=FEET)
@@ -35,6 +37,7 @@ MADE_BY_HAND += ["Coupling", "DistanceConstraint", "LoopClosure", "SlidingContac
 
 LEFT_OUT = {"axes_2d", "axes_3d", "import_pinocchio", "robots", "Template"}
 LEFT_OUT |= {"from_mujoco_model", "from_pinocchio_inertia", "from_pinocchio_model", "from_pinocchio_se3"}
+LEFT_OUT |= {"advise"}  # it measures for seconds; its own tests make its bad calls
 NOT_SWEPT = {"colour", "label", "text", "title", "progress", "com", "inward", "alpha", "there"}
 """Arguments that matplotlib takes as they are, that are true or false, and Pinocchio's own objects."""
 
@@ -105,6 +108,7 @@ GOOD: dict[str, Any] = {
     "contacts": FEET,
     "corners": np.array([[0.1, 0.05, 0], [0.1, -0.05, 0], [-0.1, -0.05, 0]]),
     "dt": 0.01,
+    "duration": 0.02,
     "f_ext": np.zeros((GO2.nbodies, 6)),
     "feet": (),
     "forces": np.ones((4, 3)),
@@ -168,7 +172,7 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "Wrench.from_force": {"force": np.ones(3), "frame": "base"},
     "from_dh": {"a": np.ones(2), "alpha": np.zeros(2), "d": np.zeros(2), "convention": "classical"},
     "from_screw_axes": {"M": np.eye(4), "Slist": np.eye(6)[:, :2]},
-    "screw_axes": {"model": tw.load("planar_arm"), "frame": "tool"},
+    "screw_axes": {"model": shared("planar_arm"), "frame": "tool"},
     "bridge.from_pinocchio_f_ext": {"f_ext": [np.zeros(6)] * GO2.nbodies},
     "compile": {"want": "gravity", "contacts": GO2.feet},
     "contact_jacobian": {"contacts": GO2.feet},

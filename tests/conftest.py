@@ -1,8 +1,8 @@
 """How many cases of a test a run tries, and how hypothesis runs here: without a clock.
 
-The plain run is what a reader would read: of a test with many cases it tries the first and the last. `pytest -m slow`
-tries the others, of a long list some that are drawn anew each time; with ``TWISTWRENCH_DRAW=all`` each of them. A case
-that is named on the command line is always run.
+The plain run is what a reader would read: of a test with many cases it tries the first and the last, of one that is
+marked `one_case` the first. `pytest -m slow` tries others, a few that are drawn anew each time; with
+``TWISTWRENCH_DRAW=all`` each of them. A case that is named on the command line is always run.
 """
 
 import os
@@ -12,13 +12,7 @@ from collections import defaultdict
 import pytest
 from hypothesis import Phase, settings
 
-from .sampling import DRAWN_BY
-
-PLAIN_CASES = 2
-"""Of each test in the plain run: the first and the last."""
-
-SLOW_CASES = 6
-"""Of each test in the slow run, at most; those are drawn."""
+from .sampling import DRAWN_BY, SLOW_CASES
 
 settings.register_profile(
     "twistwrench",
@@ -48,17 +42,19 @@ def pytest_collection_modifyitems(config, items):
         return
     cases = defaultdict(list)
     for item in items:
-        if isinstance(item, pytest.Function) and not item.get_closest_marker("slow"):
+        if isinstance(item, pytest.Function) and "[" in item.nodeid:
             cases[item.nodeid.partition("[")[0]].append(item)
     seed, left_out = os.environ[DRAWN_BY], set()
     for name, of_test in cases.items():
-        if len(of_test) <= PLAIN_CASES:
-            continue
-        others = of_test[1:-1]
-        for item in others:
-            item.add_marker(pytest.mark.slow)
-        if seed != "all" and len(others) > SLOW_CASES:
-            left_out |= set(others) - set(random.Random(seed + name).sample(others, SLOW_CASES))
+        plain = [item for item in of_test if not item.get_closest_marker("slow")]
+        kept = plain[:1] if of_test[0].get_closest_marker("one_case") else [*plain[:1], *plain[1:][-1:]]
+        for item in plain:
+            if item not in kept:
+                item.add_marker(pytest.mark.slow)
+        slow = [item for item in of_test if item not in kept]
+        most = max((item.get_closest_marker("slow").kwargs.get("draw", SLOW_CASES) for item in slow), default=0)
+        if seed != "all" and len(slow) > most:
+            left_out |= set(slow) - set(random.Random(seed + name).sample(slow, most))
     if left_out:
         config.hook.pytest_deselected(items=[item for item in items if item in left_out])
         items[:] = [item for item in items if item not in left_out]

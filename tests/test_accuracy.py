@@ -13,6 +13,7 @@ import twistwrench as tw
 from twistwrench import error_bounds
 from twistwrench.newton_euler_3d import as_mpmath
 
+from .robots import shared
 from .sampling import sampled
 
 mpmath.mp.dps = 50
@@ -21,7 +22,7 @@ mpmath.mp.dps = 50
 
 
 def test_one_joint_has_nothing_to_move_against():
-    known = tw.accuracy(tw.load("pendulum"), [0.3])
+    known = tw.accuracy(shared("pendulum"), [0.3])
     assert known.apparent_inertia == 1
     assert known.resolution == 2.0**-52
     assert known.aba == pytest.approx(28 * 2.0**-52, rel=1e-14)
@@ -49,7 +50,7 @@ def test_the_same_robot_in_other_units_has_the_same_digits(unit, scale):
 
 
 def test_where_the_base_is_does_not_count():
-    model, q = tw.load("go2"), tw.load("go2").standing()
+    model, q = shared("go2"), shared("go2").standing()
     far = q + np.array([1e9, -1e9, 1e9] + [0] * 16)
     assert tw.accuracy(model, far).apparent_inertia == tw.accuracy(model, q).apparent_inertia
 
@@ -89,6 +90,7 @@ def worst(model, s, who):
             continue
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("recipe", sampled(HARD, 2), ids=lambda recipe: str(recipe.changed))
 def test_no_error_is_above_the_estimate(recipe):
     found = list(worst(recipe.model, recipe.state, ("textbook", "fast", "float32")))
@@ -227,7 +229,7 @@ def test_a_disc_that_spins_has_no_certain_digit_where_nothing_accelerates_it():
 
 
 def test_a_slow_robot_has_the_digits_that_it_has_without_a_velocity():
-    go2, arm = tw.load("go2"), tw.load("planar_arm")
+    go2, arm = shared("go2"), shared("planar_arm")
     still = np.zeros(go2.nv)
     plain = tw.accuracy(go2, go2.standing()).aba
     for v in (still, still + 0.1, still + 1.0):
@@ -237,7 +239,7 @@ def test_a_slow_robot_has_the_digits_that_it_has_without_a_velocity():
 
 
 def test_states_come_as_batches_and_are_checked():
-    model, q = tw.load("go2"), tw.load("go2").standing()
+    model, q = shared("go2"), shared("go2").standing()
     v = np.random.default_rng(0).standard_normal((3, 2, model.nv))
     known = tw.accuracy(model, q, v, v[0])
     assert known.aba.shape == known.crba_solve.shape == (3, 2)
@@ -256,7 +258,7 @@ def test_states_come_as_batches_and_are_checked():
 
 
 def test_the_estimate_follows_the_number_type():
-    model, q = tw.load("go2"), tw.load("go2").standing()
+    model, q = shared("go2"), shared("go2").standing()
     single, double, long = (tw.accuracy(model, q.astype(bits)) for bits in (np.float32, np.float64, np.longdouble))
     assert single.aba / double.aba == pytest.approx(2.0**29, rel=1e-3)
     assert long.aba / double.aba == pytest.approx(np.finfo(np.longdouble).eps / 2.0**-52, rel=1e-6)
@@ -264,7 +266,7 @@ def test_the_estimate_follows_the_number_type():
 
 
 def test_a_batch_has_an_estimate_each():
-    model = tw.load("go2")
+    model = shared("go2")
     q = np.stack([model.random_configuration(rng=k) for k in range(6)]).reshape(3, 2, -1)
     known = tw.accuracy(model, q)
     assert known.rnea.shape == known.aba.shape == known.crba_solve.shape == known.apparent_inertia.shape == (3, 2)
@@ -273,7 +275,7 @@ def test_a_batch_has_an_estimate_each():
 
 
 def test_an_empty_batch_and_a_robot_without_joints_say_nothing_is_lost():
-    model = tw.load("pendulum")
+    model = shared("pendulum")
     empty = tw.accuracy(model, np.zeros((0, 1)))
     assert empty.aba.shape == (0,)
     assert "rnea" in str(empty)
@@ -307,11 +309,11 @@ def test_of_many_joints_it_names_the_first_four():
 
 
 def test_of_a_robot_without_a_weak_motion_it_says_the_digits_only():
-    assert str(tw.accuracy(tw.load("go2"), tw.load("go2").standing())).count("\n") == 0
+    assert str(tw.accuracy(shared("go2"), shared("go2").standing())).count("\n") == 0
 
 
 def test_a_configuration_that_is_none_is_refused():
-    model = tw.load("go2")
+    model = shared("go2")
     with pytest.raises(tw.ShapeError, match="q: expected"):
         tw.accuracy(model, np.zeros(18))
     with pytest.raises(ValueError, match="quaternion"):
@@ -322,7 +324,7 @@ def test_a_configuration_that_is_none_is_refused():
 
 def test_it_costs_less_than_five_times_aba():
     """Measured in turns, the best of each: about a tenth."""
-    model, q = tw.load("go2"), tw.load("go2").standing()
+    model, q = shared("go2"), shared("go2").standing()
     rest = np.zeros(model.nv)
     best = {}
     for _ in range(7):
@@ -334,7 +336,7 @@ def test_it_costs_less_than_five_times_aba():
 
 
 def test_the_older_name_of_the_apparent_inertia_is_kept():
-    known = tw.accuracy(tw.load("go2"), tw.load("go2").standing())
+    known = tw.accuracy(shared("go2"), shared("go2").standing())
     assert known.felt is known.apparent_inertia
 
 

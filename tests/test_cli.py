@@ -24,6 +24,7 @@ def test_validate_prints_a_table_and_succeeds(capsys):
     assert err == ""
 
 
+@pytest.mark.slow
 def test_validate_without_a_name_takes_go2_and_several_names_a_table_each(capsys):
     assert main(["validate", "--states", "1", "--truths", "1"]) == 0
     assert capsys.readouterr().out.startswith("go2: floating base, 13 moving bodies")
@@ -102,6 +103,7 @@ def test_json_goes_to_stdout_alone(capsys):
     assert found["reports"][0]["rows"][0]["ours_vs_truth"] < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ["ascii", pytest.param("cp1252", marks=pytest.mark.slow)])
 def test_letters_that_the_output_lacks_are_shown_by_their_numbers(encoding):
     def said(*arguments):
@@ -158,6 +160,7 @@ def test_a_file_is_neither_emptied_nor_made_before_there_is_something_to_write(t
     assert not new.exists()
 
 
+@pytest.mark.slow
 def test_the_seed_changes_the_states(capsys):
     def rows(seed):
         main(["validate", "cart_pole", *QUICK, "--seed", seed, "--json", "-"])
@@ -202,6 +205,7 @@ def test_an_interrupt_says_so_by_its_status(monkeypatch):
     assert main(["validate", "pendulum"]) == 130
 
 
+@pytest.mark.slow
 def test_help_is_quick_and_a_reader_that_leaves_is_no_error():
     script = "import sys; from twistwrench.cli import main; sys.exit(main(['robots']))"
     process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE)

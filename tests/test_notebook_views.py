@@ -9,7 +9,9 @@ import pytest
 import twistwrench as tw
 from twistwrench.tables import html_matrix
 
-GO2 = tw.load("go2")
+from .robots import shared
+
+GO2 = shared("go2")
 Q, REST = GO2.standing(), np.zeros(18)
 
 
@@ -36,7 +38,7 @@ def test_a_model_shows_every_joint_once_below_the_one_that_carries_it(name):
 def test_a_joint_is_shown_with_its_limits_and_its_units():
     shown = GO2._repr_html_()
     assert "revolute, 0.194 kg, -2.72 … -0.838 rad, ± 45.4 N m" in shown
-    assert "prismatic" in tw.load("cart_pole")._repr_html_()
+    assert "prismatic" in shared("cart_pole")._repr_html_()
     name = tw.Builder("<b> & co").build()._repr_html_()
     assert "&lt;b&gt; &amp; co" in name
 
@@ -80,6 +82,7 @@ def test_equilibrium_and_accuracy_are_shown_as_they_are_read():
     assert next(parsed(accuracy._repr_html_()).iter("pre")).text == str(accuracy)
 
 
+@pytest.mark.slow
 def test_what_is_cheapest_is_a_table_with_the_choice_marked():
     motion = tw.motions.walk(GO2)
     found = tw.Scene("go2").cheapest(0.1, motion, held_out=tw.motions.trot(GO2))

@@ -87,6 +87,7 @@ def test_a_sweep_that_is_killed_leaves_no_processes_behind():
     assert is_stopped(process)[0] == -signal.SIGKILL
 
 
+@pytest.mark.slow
 def test_a_sweep_that_nobody_reads_stops():
     """As in `twistwrench validate --all | head -2`: it must not wait for the next line it prints."""
     process = started(*SWEEP, "--states", "20", "--truths", "20")

@@ -10,6 +10,8 @@ import numpy as np
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
 
+from .robots import shared
+
 mpmath.mp.dps = 50
 
 
@@ -30,7 +32,7 @@ def corners(sides) -> dict[str, tuple[float, float, float]]:
 
 BOX_SIDES = (0.6, 0.4, 0.2)
 BOX = solid("box", 8.0, BOX_SIDES, corners(BOX_SIDES))
-GO2, HUMANOID = tw.load("go2"), tw.load("humanoid")
+GO2, HUMANOID = shared("go2"), shared("humanoid")
 SOLE = (0.076, 0.0275)
 
 

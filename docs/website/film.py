@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import re
-from functools import lru_cache
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -63,7 +63,7 @@ def with_films(text: str, page: Path, language: str) -> str:
     return MARK.sub(lambda found: film(language, motions(page)[found[1]]), text)
 
 
-@lru_cache(maxsize=1)
+@cache  # for both languages
 def motions(page: Path) -> dict[str, dict[str, Any]]:
     """Run the blocks of a page, and return the films that it asks for."""
     text, names = page.read_text(encoding="utf-8"), dict[str, Any]()

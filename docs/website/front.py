@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 import twistwrench as tw
@@ -33,6 +35,7 @@ def trot(language: str) -> str:
     return film(language, stride(), **WORDS[language])
 
 
+@cache
 def stride() -> dict[str, object]:
     """Return one stride: the sticks of each frame, the feet with their forces, in mm, and how far the robot comes."""
     model = tw.load("go2")

@@ -66,6 +66,9 @@ def execute(path: Path, result: Path) -> Path:
     with tempfile.TemporaryDirectory() as folder:
         place = {"metadata": {"path": folder}}
         NotebookClient(notebook, timeout=SLOWEST, resources=place, extra_arguments=["--log-level=40"]).execute()
+    outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+    if complaints := [output.text for output in outputs if output.get("name") == "stderr"]:
+        raise ValueError(f"{path.parent.name}/{path.name} wrote to stderr: {complaints[0]}")
     whole = result.with_name(f"{path.parent.name}-{result.name}")
     nbformat.write(notebook, whole)
     whole.replace(result)  # a reader finds all of it or nothing

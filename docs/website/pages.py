@@ -21,7 +21,7 @@ TEXT = Path(__file__).resolve().parent / "text"
 LANGUAGES = ("en", "zh")
 SUFFIX = {"en": "", "zh": ".zh-CN"}
 
-LOOK_UP = ("companion", "mirror", "errata", "conventions", "map", "traps", "glossary")
+LOOK_UP = ("companion", "mirror", "errata", "conventions", "map", "traps", "everyday", "glossary")
 PROJECT = ("contributing", "changelog", "models", "exercises")
 ONE_BY_ONE = {
     "README.md": "readme",

@@ -7,7 +7,9 @@ import pytest
 
 import twistwrench as tw
 
-GO2 = tw.load("go2")
+from ..robots import shared
+
+GO2 = shared("go2")
 STAND, REST = GO2.standing(), np.zeros(18)
 
 

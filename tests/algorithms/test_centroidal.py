@@ -11,6 +11,7 @@ import twistwrench as tw
 
 from ..invariants import H, close, floating, in_world, rate, several, step, trees
 from ..mechanisms import C1, agrees, newton_and_euler, pendulum, satellite, states
+from ..robots import shared
 
 # ---------------------------------------------------------------- closed forms
 
@@ -104,7 +105,7 @@ STONE = tw.Builder("stone", base="floating", root_inertia=tw.SpatialInertia(2, [
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("distance", [1e3, 1e6, 1e9])
-@pytest.mark.parametrize("model", [tw.load("go2"), STONE.build()], ids=lambda model: model.name)
+@pytest.mark.parametrize("model", [shared("go2"), STONE.build()], ids=lambda model: model.name)
 def test_centroidal_momentum_loses_no_digit_where_the_robot_is_far_from_the_worlds_origin(model, distance, dtype):
     rng = np.random.default_rng(5)
     here, v, a = model.random_configuration(rng=rng), *rng.normal(size=(2, model.nv))
@@ -120,7 +121,7 @@ def test_centroidal_momentum_loses_no_digit_where_the_robot_is_far_from_the_worl
 
 
 def test_centroidal_map_loses_no_digit_where_the_robot_is_welded_down_far_from_the_worlds_origin():
-    arm, far = tw.load("planar_arm"), tw.SE3(np.eye(3), [1e6, 2e6, -1e6])
+    arm, far = shared("planar_arm"), tw.SE3(np.eye(3), [1e6, 2e6, -1e6])
     moved = replace(arm, placement=(arm.placement[0], far @ arm.placement[1], *arm.placement[2:]))
     q = np.array([[0.3, -1.1, 0.7], [2.0, 0.4, -0.1]])
     assert (tw.centroidal_map(moved, q) == tw.centroidal_map(arm, q)).all()

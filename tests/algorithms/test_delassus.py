@@ -11,6 +11,7 @@ import twistwrench as tw
 
 from ..invariants import body_frame, close, floating, several, trees
 from ..mechanisms import C2, I2, M1, M2, agrees, cart_and_pole, newton_and_euler, states
+from ..robots import shared
 from ..strategies import BATCHES, REFERENCES, Recipe
 from .test_factorization import TYPES, wheels
 from .test_inverse_mass import EPS, loss
@@ -73,7 +74,7 @@ def test_arms_on_one_fixed_base_do_not_meet():
 
 def test_a_contact_without_friction_stops_by_its_inertia():
     """The impulse that stops a foot is Λ times its velocity, as `impact` finds it by another way."""
-    model = tw.load("go2")
+    model = shared("go2")
     q, v = model.standing(), np.linspace(-1, 1, model.nv)
     J = tw.contact_jacobian(model, q, ["FL_foot"])
     impulse = tw.impact(model, q, v, [tw.PointContact("FL_foot", 0.6)]).impulses["FL_foot"]
@@ -125,7 +126,7 @@ def test_fractions_stay_exact():
 
 
 def test_rows_that_depend_on_each_other_are_refused_with_J_named():
-    model = tw.load("planar_arm")
+    model = shared("planar_arm")
     q = np.array([0.3, -0.4, 0.5])
     with pytest.raises(tw.SingularError, match="J: its rows depend on each other"):
         tw.operational_space_inertia(model, q, tw.frame_jacobian(model, q, "tool"))  # 6 rows, 3 joints

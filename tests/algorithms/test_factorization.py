@@ -14,6 +14,7 @@ from twistwrench.plot import same_branch
 
 from ..invariants import close, several, trees
 from ..mechanisms import agrees, double_pendulum, states
+from ..robots import shared
 from ..sampling import sampled
 from ..strategies import BATCHES, Recipe
 from ..truth import SKEEL, slow
@@ -70,7 +71,7 @@ def test_a_pivot_is_the_inertia_of_a_joint_whose_outboard_joints_are_free(recipe
 
 
 def test_the_usual_order_of_cholesky_fills_the_zeros_in():
-    model = tw.load("go2")
+    model = shared("go2")
     q = model.random_configuration(rng=1)
     other = np.linalg.cholesky(tw.crba(model, q))
     assert np.count_nonzero(other[~same_branch(model)]) == 54  # six pairs of legs, nine entries each: all of them

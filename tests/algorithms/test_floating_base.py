@@ -8,9 +8,10 @@ import pytest
 import twistwrench as tw
 
 from ..invariants import H
+from ..robots import shared
 from ..touching import on_bodies
 
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 STAND, REST = GO2.standing(), np.zeros(18)
 
 

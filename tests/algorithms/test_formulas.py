@@ -21,6 +21,8 @@ from twistwrench.algorithms.subtree import subtree_momentum_map
 from twistwrench.model import KINDS, Joint, columns, composite_inertias, joint_placements, tree_terms, wrenches
 from twistwrench.spatial import SE3
 
+from ..robots import shared
+
 
 class Blind:
     """A number that can be added, subtracted, multiplied, divided and turned, but not looked at."""
@@ -126,8 +128,8 @@ def test_every_transform_is_arithmetic():
 
 
 MODELS = [
-    tw.load("go2"),
-    tw.load("cart_pole"),
+    shared("go2"),
+    shared("cart_pole"),
     *(tw.random_tree(7, rng=seed, base=base) for seed in (1, 5) for base in ("fixed", "floating")),
 ]
 
@@ -211,7 +213,7 @@ def test_rates_and_parts_of_the_momentum_are_arithmetic(state):
     ],
 )
 def test_nothing_is_checked_twice(call, most, monkeypatch):
-    model = tw.load("go2")
+    model = shared("go2")
     q, v = model.standing(), np.zeros(model.nv)
     call(model, q, v)  # what is made once for a model is made
     counted = []

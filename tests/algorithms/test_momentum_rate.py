@@ -13,6 +13,7 @@ import twistwrench as tw
 
 from ..invariants import close, floating, hinges_and_slides, rate, several, step, trees
 from ..mechanisms import C1, agrees, newton_and_euler, pendulum, satellite, states
+from ..robots import shared
 from ..strategies import BATCHES, Recipe
 from ..truth import slow
 from .test_factorization import TYPES, wheels
@@ -139,7 +140,7 @@ def test_the_rate_of_the_map_is_right_to_fifty_digits(recipe):
 
 @pytest.mark.parametrize("distance", [1e3, 1e6, 1e9])
 def test_none_depends_on_where_the_robot_stands(distance):
-    model, rng = tw.load("go2"), np.random.default_rng(5)
+    model, rng = shared("go2"), np.random.default_rng(5)
     here, v = model.random_configuration(rng=rng), rng.standard_normal(model.nv)
     there = here.copy()
     here[:3], there[:3] = 0, distance * np.array([1, -0.7, 0.3])

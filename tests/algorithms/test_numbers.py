@@ -8,6 +8,7 @@ from hypothesis import given
 
 import twistwrench as tw
 
+from ..robots import shared
 from ..strategies import BATCHES, Recipe, State, examples, random_state, recipes
 from ..truth import ULPS, assert_agree, check_against_the_truth, textbook
 
@@ -19,6 +20,7 @@ TREES = [Recipe(6, seed=1, base="floating"), Recipe(7, seed=4, branching=1.0), R
 # ---------------------------------------------------------------- number types
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     "dtype",
     [
@@ -84,7 +86,7 @@ def single(model):
 @pytest.mark.slow
 def test_a_single_configuration_goes_with_double_velocities():
     """Its quaternion has norm 1 to seven digits, and is made one to sixteen on the way."""
-    model = tw.load("go2")
+    model = shared("go2")
     q, v = single(model), np.linspace(-1, 1, model.nv)
     checked, _ = model.state(q, v=v)
     assert abs(np.hypot.reduce(checked[3:7]) - 1) < 1e-15
@@ -101,7 +103,7 @@ def test_a_single_configuration_goes_with_double_velocities():
 
 @pytest.mark.slow
 def test_what_is_done_in_double_precision_takes_singles():
-    model = tw.load("go2")
+    model = shared("go2")
     q, v = single(model), np.zeros(model.nv, np.float32)
     exact, feet = model.normalize(q.astype(np.float64)), [tw.PointContact(foot, 0.6) for foot in model.feet]
     anchors = tw.contact_placements(model, q, feet)

@@ -16,12 +16,13 @@ from twistwrench.algorithms.factorization import factorize, inboard_dofs, solve_
 from twistwrench.algorithms.inverse_mass import unit_force_responses
 from twistwrench.model import tree_terms
 
+from ..robots import shared
 from .counting import Counted, counted, counted_tree, counting
 
 DOCS = Path(__file__).parents[2] / "docs"
 ROBOTS = {
-    "go2": (tw.load("go2"), tw.load("go2").feet),
-    "humanoid": (tw.load("humanoid"), tw.load("humanoid").feet),
+    "go2": (shared("go2"), shared("go2").feet),
+    "humanoid": (shared("humanoid"), shared("humanoid").feet),
     "chain of 18": (tw.chain(18), ["rod_18"]),
 }
 
@@ -88,6 +89,7 @@ def table(page):
     return {name: [int(x.replace(" ", "")) for x in cells.split("|")] for name, cells in rows}
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("page", ["mass_matrix.md", "mass_matrix.zh-CN.md"])
 def test_the_table_of_the_page_is_counted(page):
     for name, (model, frames) in ROBOTS.items():
@@ -98,6 +100,7 @@ def test_the_table_of_the_page_is_counted(page):
         assert table(page)[name] == [model.nv, *expected], name
 
 
+@pytest.mark.slow
 def test_the_code_of_the_page_runs():
     blocks = re.findall(r"```python\n(.*?)```", (DOCS / "mass_matrix.md").read_text(encoding="utf-8"), re.DOTALL)
     assert len(blocks) == 5

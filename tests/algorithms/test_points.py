@@ -10,6 +10,7 @@ from twistwrench import bridge
 from twistwrench.algorithms.mimic import follow
 from twistwrench.spatial import SE3
 
+from ..robots import shared
 from ..strategies import BATCHES, random_state
 from .test_factorization import wheels
 
@@ -49,7 +50,7 @@ def test_pinocchio_has_the_same_of_a_frame_at_the_point(seed):
 
 
 def test_a_force_at_the_point_does_the_same_as_its_wrench():
-    model, q = tw.load("go2"), tw.load("go2").standing()
+    model, q = shared("go2"), shared("go2").standing()
     f, i = np.array([1.0, 2, 3]), model.frame("FR_calf").body
     f_ext, T = np.zeros((model.nbodies, 6)), tw.frame_placement(model, q, model.joint_names[i])
     at = model.frame("FR_calf").placement.act(POINT)
@@ -60,7 +61,7 @@ def test_a_force_at_the_point_does_the_same_as_its_wrench():
 
 
 def test_points_in_a_circle_move_on_circles():
-    pendulum = tw.load("pendulum")
+    pendulum = shared("pendulum")
     points = np.array([[0, 0, -1.0], [0.5, 0, 0], [0, 2, 0]])
     x = tw.frame_placement(pendulum, [0.3], "bob").act(points)
     v = tw.point_velocity(pendulum, [0.3], [2.0], "bob", points)
@@ -78,7 +79,7 @@ def test_batches_of_states_and_a_mimic_model():
     np.testing.assert_allclose(
         tw.point_acceleration(model, s.q, s.v, s.a, frame, POINT)[1, 2], each, rtol=0, atol=1e-13
     )
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     mimic = follow(arm, {"wrist": ("elbow", -1.0, 0.5)})
     full, rates = mimic.expand([0.1, 0.2], [1.0, 2.0])
     expected = tw.point_velocity(arm, full, rates, "tool", POINT)
@@ -117,12 +118,12 @@ def test_fractions_and_symbols_stay_exact():
     assert all(isinstance(x, Fraction) for x in of_v)
     sympy = pytest.importorskip("sympy", reason="SymPy is not installed: no symbols")
     angle, rate = sympy.symbols("q w", real=True)
-    x, _, z = tw.point_velocity(tw.load("pendulum"), [angle], [rate], "bob", [0, 0, -1])
+    x, _, z = tw.point_velocity(shared("pendulum"), [angle], [rate], "bob", [0, 0, -1])
     assert sympy.simplify(x + 2 * rate * sympy.cos(angle)) == sympy.simplify(z - 2 * rate * sympy.sin(angle)) == 0
 
 
 def test_errors_name_the_argument():
-    model = tw.load("pendulum")
+    model = shared("pendulum")
     with pytest.raises(tw.ShapeError, match="point: expected shape"):
         tw.point_jacobian(model, [0.0], "bob", [1, 2])
     with pytest.raises(tw.NameNotFound, match="unknown frame 'bib'"):

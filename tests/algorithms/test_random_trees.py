@@ -32,6 +32,7 @@ def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(re
     check_against_the_truth(recipe, np.float64)
 
 
+@pytest.mark.slow
 @given(recipes(5))
 @examples(4)
 def test_complex_states_are_right_too(recipe):
@@ -59,7 +60,7 @@ def test_every_quantity_is_pinocchios(recipe):
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(200)
+@examples(60)
 def test_every_quantity_is_pinocchios_at_length(recipe):
     check_against_pinocchio(recipe)
 

@@ -43,6 +43,7 @@ def test_aba_finds_inertia_enough_in_a_rotor():
     assert tw.aba(builder.build(), [0.0], [1.0], [2.0]) == [4.0]
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("legs", [1, 3])
 def test_aba_refuses_a_massless_base_wherever_its_leg_points(legs):
     # the base can turn and the leg turn back without anything that has inertia moving

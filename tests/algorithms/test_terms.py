@@ -8,9 +8,11 @@ import twistwrench as tw
 from twistwrench import newton_euler_3d as exact
 from twistwrench.spatial.formulas import bias_wrench, cross_force
 
+from ..robots import shared
+
 MODELS = [
-    tw.load("go2"),
-    tw.load("humanoid"),
+    shared("go2"),
+    shared("humanoid"),
     *(tw.random_tree(8, rng=s, base=b) for s in (3, 4) for b in ("fixed", "floating")),
 ]
 
@@ -56,7 +58,7 @@ def test_a_batch_of_terms_holds_those_of_its_states(model):
 
 
 def test_terms_cannot_be_exchanged_and_take_no_memory_of_the_caller():
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
     q, v, tau = np.array([0.3, 0.4]), np.ones(2), np.ones(2)
     terms = tw.aba_terms(model, q, v, tau)
     before = [x.copy() for x in (*terms.u, *terms.V, terms.qdd)]
@@ -68,7 +70,7 @@ def test_terms_cannot_be_exchanged_and_take_no_memory_of_the_caller():
 
 
 def test_a_record_prints_the_names_of_its_terms():
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
     assert repr(tw.rnea_terms(model, [0, 0], [0, 0], [0, 0])) == "RneaTerms(V, A, B, F, tau)"
     assert repr(tw.crba_terms(model, [0, 0])) == "CrbaTerms(IC, F, M)"
 

@@ -7,7 +7,9 @@ import pytest
 
 import twistwrench as tw
 
-GO2 = tw.load("go2")
+from ..robots import shared
+
+GO2 = shared("go2")
 
 
 def test_dynamics_returns_what_the_separate_functions_do():

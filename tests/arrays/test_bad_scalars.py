@@ -12,10 +12,11 @@ import pytest
 import twistwrench as tw
 
 from ..badcalls import SPECIAL
+from ..robots import shared
 
 FOLDERS = ["", ".fast", ".motions", ".newton_euler_3d", ".plot", ".templates", ".validate"]
 MADE_BY_HAND = ["Baumgarte", "Builder", "PointContact", "Scene", "SurfaceContact", "Twist", "Wrench"]
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 FEET = [tw.PointContact(foot, 0.6) for foot in GO2.feet]
 REST = np.zeros(GO2.nv)
 METHODS = [

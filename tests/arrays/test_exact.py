@@ -13,6 +13,8 @@ from twistwrench.arrays import convert, elementary, exact_unit
 from twistwrench.spatial._quaternions import exact_rotation
 from twistwrench.spatial.rotation import quaternion_to_rotation
 
+from ..robots import shared
+
 TWO = tw.chain(2)
 QUARTER = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
 
@@ -135,7 +137,7 @@ def test_beside_symbols_a_float_is_its_shortest_decimal_and_beside_fractions_its
 
 def test_one_symbol_anywhere_in_the_state_makes_decimals_of_all_constants():
     sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
-    model, (v, a) = tw.load("double_pendulum"), sympy.symbols("v a")
+    model, (v, a) = shared("double_pendulum"), sympy.symbols("v a")
     tip = F("0.1201")
     assert sympy.expand(tw.rnea(model, [0, 0], [0, 0], [0, a])[1]) == sympy.Rational(tip) * a
     assert sympy.expand(tw.kinetic_energy(model, [0, 0], [0, v])) == sympy.Rational(tip) / 2 * v**2
@@ -147,7 +149,7 @@ def test_functions_of_time_are_numbers_as_symbols_are():
     """Their types have no `__module__`: SymPy makes one for each function."""
     sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
     mechanics = pytest.importorskip("sympy.physics.mechanics")
-    model, q, t = tw.load("double_pendulum"), sympy.symbols("q1 q2"), mechanics.dynamicsymbols("q1 q2")
+    model, q, t = shared("double_pendulum"), sympy.symbols("q1 q2"), mechanics.dynamicsymbols("q1 q2")
     of_time = dict(zip(q, t))
     for function in (tw.gravity, tw.crba, tw.newton_euler_3d.gravity):
         assert sympy.Matrix(function(model, q)).subs(of_time) == sympy.Matrix(function(model, t))
@@ -226,7 +228,7 @@ def test_a_wrench_on_the_world_is_refused_whatever_its_numbers():
 
 def test_a_quaternion_of_fractions_may_have_any_length_but_zero():
     sympy = pytest.importorskip("sympy", reason="SymPy is not installed")
-    go2, q = tw.load("go2"), [F(0)] * 19
+    go2, q = shared("go2"), [F(0)] * 19
     for zero in (F(0), sympy.Integer(0)):
         q[3:7] = [zero] * 4
         with pytest.raises(
@@ -276,7 +278,7 @@ def test_constants_that_are_symbols_are_named_where_floats_are_needed():
 
 def test_floats_of_q_have_a_cosine_beside_symbols_of_another_argument():
     sympy = pytest.importorskip("sympy", reason="SymPy is not installed: formulas are not derived")
-    model, q, a = tw.load("double_pendulum"), [0.1, 0.25], sympy.symbols("a1 a2")
+    model, q, a = shared("double_pendulum"), [0.1, 0.25], sympy.symbols("a1 a2")
     M, g = tw.crba(model, q), tw.gravity(model, q)
     for function in (tw.rnea, tw.newton_euler_3d.inverse_dynamics):
         tau = function(model, q, [0, 0], a)

@@ -91,6 +91,7 @@ def theirs(case, stabilise=0.0):
     return there, there.createData(), models, datas
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("case", sampled(CASES, 2))
 def test_derivatives_of_the_acceleration_are_pinocchios(case):
     stabilise = 5.0 * ([*CASES].index(case) % 2)

@@ -12,6 +12,7 @@ import twistwrench as tw
 from twistwrench.contact.qp import least_within
 from twistwrench.contact.task import ContactProblem, contact_limits
 
+from ..robots import shared
 from ..touching import (
     BOX,
     BOX_CORNERS,
@@ -114,7 +115,7 @@ def test_batches_are_single_states():
 
 
 def test_a_fixed_base_needs_no_contact_forces():
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     q, v, a = np.array([[0.3, -0.5, 0.7], [1, 2, 3], [4, 5, 6]])
     need = tw.contact_inverse_dynamics(arm, q, v, a, points(["tool"]))
     assert (need.forces["tool"] == 0).all()
@@ -282,7 +283,7 @@ def test_motors_that_nothing_spares_are_named(tired):
 
 def test_an_arm_leans_on_a_table_as_far_as_its_motors_cannot_hold_it():
     """Of a fixed base nothing asks for forces but the motors; the largest that they spare, by a linear programme."""
-    arm, q = tw.load("planar_arm"), np.array([0.4, 0.5, 0.6])
+    arm, q = shared("planar_arm"), np.array([0.4, 0.5, 0.6])
     strong, table = np.abs(tw.gravity(arm, q)), points(["tool"])
     assert not stacked(tw.friction_inverse_dynamics(arm, q, 0 * q, 0 * q, table, effort_limits=True).forces).any()
     J, A = tw.constraint_jacobian(arm, q, table), contact_limits(table, 16, "inner").A
@@ -440,7 +441,7 @@ def test_nothing_depends_on_where_gravity_points():
     ("model", "q", "contacts", "said"),
     [
         (GO2, GO2.standing(), [], "expected a floating base, gravity and at least one contact"),
-        (tw.load("planar_arm"), np.zeros(3), points(["tool"]), "expected a floating base"),
+        (shared("planar_arm"), np.zeros(3), points(["tool"]), "expected a floating base"),
         (GO2, np.stack([GO2.standing()] * 2), FEET, r"q: expected one configuration, shape \(19,\), got \(2, 19\)"),
         (GO2, GO2.standing(), points(["FL_fot"]), "unknown frame 'FL_fot'"),
     ],

@@ -107,6 +107,7 @@ def bead() -> tw.Model:
 # ---------------------------------------------------------------- one or two directions
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("slope", [0.0, 0.5, 1.4])
 def test_a_bead_on_a_rail_and_on_a_plane_accelerates_with_g_sin(slope):
     model, rest = bead(), np.zeros(6)

@@ -7,7 +7,9 @@ import twistwrench as tw
 from twistwrench.algorithms.mimic import follow
 from twistwrench.simulation.mimics import couplings
 
-GO2 = tw.load("go2")
+from ..robots import shared
+
+GO2 = shared("go2")
 LAWS = {"RR_thigh_joint": ("RL_thigh_joint", 1.0, 0.0), "RR_calf_joint": ("FR_calf_joint", -0.8, -3.2)}
 MODEL = follow(GO2, LAWS)
 FEET = [tw.PointContact(foot, 0.6) for foot in GO2.feet[:3]]

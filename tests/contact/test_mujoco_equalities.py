@@ -53,6 +53,7 @@ CONTACTS = {
 }
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("equality", EQUALITIES)
 def test_in_the_limit_of_a_stiff_constraint_the_acceleration_is_ours(equality):
     """The difference shrinks with 1 − d, and a straight line through the two stiffest ends at our acceleration.

@@ -120,6 +120,7 @@ PUBLISHED = {  # table 2 of the paper: capsize, castering, weave; at rest it fal
 }
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("speed", sorted(PUBLISHED))
 def test_the_bicycle_weaves_and_capsizes_as_published(speed):
     model, wheels = bicycle()

@@ -231,7 +231,7 @@ def bare(text):
     return "".join(text.split())
 
 
-@pytest.mark.parametrize(("e", "part", "slip", "seed"), sampled(CELLS, 45, several=True, draw=250))
+@pytest.mark.parametrize(("e", "part", "slip", "seed"), sampled(CELLS, 45, several=True, draw=40))
 def test_a_slip_is_named(e, part, slip, seed):
     verdict = judge(e, settled(part.name, seed), part.slips[slip])
     assert verdict.state == "wrong"
@@ -296,6 +296,7 @@ def write_solutions(folder, language):
             )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", sampled(["en", "zh"], 1))
 def test_a_fresh_folder_is_all_to_do(tmp_path, language):
     new, kept = start(tmp_path / "mine", language=language)
@@ -316,7 +317,7 @@ def test_start_touches_nothing_that_is_there(tmp_path):
     assert len(kept) == len(new) + 1
 
 
-@pytest.mark.slow
+@pytest.mark.slow(draw=1)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_the_solutions_give_everything(tmp_path, language):
     start(tmp_path, language=language)
@@ -446,6 +447,7 @@ def spoilt(change):
     return function
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("change", "en", "zh"),
     sampled(
@@ -623,6 +625,7 @@ def test_a_broken_property_is_told_where_no_slip_fits():
 # ---------------------------------------------------------------- one exercise uses another
 
 
+@pytest.mark.slow
 def test_later_exercises_run_on_the_reference_until_the_earlier_one_is_right(tmp_path):
     start(tmp_path, language="en")
     exercise, part = COURSE.find_part("translation_transforms")

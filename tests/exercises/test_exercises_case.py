@@ -77,6 +77,7 @@ def test_what_differs_is_marked_block_by_block():
     assert "应为" in found.text("zh")
 
 
+@pytest.mark.slow
 def test_a_large_block_lists_its_first_wrong_entries():
     found = verdict("mass_matrix_by_rnea", lambda model, q: tw.crba(model, q) + 1).case
     assert "more entries differ" in found.text("en") or len(found.text("en").splitlines()) < 60
@@ -112,6 +113,7 @@ def test_a_case_that_is_not_there_is_an_error():
         case("adjont")
 
 
+@pytest.mark.slow
 def test_an_exception_and_an_endless_loop_have_their_case_too(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"act": "if x[0] > 0:\n    while True:\n        pass\nreturn R @ x + p"})

@@ -194,6 +194,7 @@ def test_further_cases_are_had_by_their_number():
     assert np.array_equal(q[3:7], [0, 0, 0, 1])
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="a copy of the process is made on Linux")
 def test_a_change_that_ends_the_process_is_not_taken_for_the_answer():
     """The search tries changes of the student's function, and a library may end Python at one of them."""

@@ -58,6 +58,7 @@ def test_each_student_has_the_points_of_what_is_right(found):
     assert sum(points["chen"].values()) == sum(points["dora"].values()) == sum(points["emil"].values()) == 0
 
 
+@pytest.mark.slow
 def test_a_part_of_an_exercise_gives_a_part_of_its_point(room, tmp_path):
     start(tmp_path / "one", language="en")
     half = "rest = np.zeros(18)\nreturn tw.rnea(tw.load('go2'), tw.load('go2').neutral(), rest, rest)[:6]"
@@ -120,6 +121,7 @@ def test_the_command_writes_what_is_asked_for(room, tmp_path, capsys):
     assert all(file.stat().st_size > 100 for file in files)
 
 
+@pytest.mark.slow
 def test_a_folder_without_exercises_is_a_line_and_not_an_end(room, tmp_path):
     (tmp_path / "late").mkdir()
     found = grade(COURSE, [tmp_path / "late", room / "ada"], only=["49.0.1"])
@@ -151,6 +153,7 @@ def graded(*places):
     return {x.student: (x.points, " ".join(r.en for r in x.remarks)) for x in grade(COURSE, places, only=["49.0.2"])}
 
 
+@pytest.mark.slow
 def test_answers_are_found_under_the_names_that_they_are_handed_in_with(tmp_path):
     room = tmp_path / "class"
     answers(room / "ada" / "answers")
@@ -186,6 +189,7 @@ def test_every_file_of_a_student_is_found(tmp_path):
     assert one.remarks == ()
 
 
+@pytest.mark.slow
 def test_remarks_are_on_the_page_in_the_table_and_in_the_rows(tmp_path):
     answers(tmp_path / "class" / "ada", "ex_49_0 (1).py")
     answers(tmp_path / "class" / "bela")
@@ -255,6 +259,7 @@ def test_a_zip_writes_nothing_elsewhere_and_unpacks_nothing_huge(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["ada.zip", "bela.zip", "class"]
 
 
+@pytest.mark.slow
 def test_each_student_has_a_line_and_rows_as_soon_as_he_is_done(room, tmp_path, capsys, monkeypatch):
     file, sizes = tmp_path / "a.csv", []
     monkeypatch.setattr(sys.stderr, "write", lambda text: sizes.append(file.exists() and file.stat().st_size))

@@ -13,9 +13,7 @@ import pytest
 import twistwrench as tw
 from misstep.compare import plain
 from misstep.folder.workbook import Workbook
-from misstep.grading.grading import grade
 from misstep.judge import judge
-from misstep.processes import process
 from twistwrench.exercises.chapter import COURSE
 
 from .hostile import BODIES, FILES, ODD, ROOMS, hand_in
@@ -24,7 +22,6 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the harm is don
 
 LIMIT = 1.5
 UNREADABLE = {f"file, {kind}" for kind in FILES} - {"file, names that raise", "file, patches"}
-QUICK = {"bodies": ("stopped", "stays and exits", "garbage"), "files": ("a pipe",), "rooms": ("hints are a list",)}
 
 
 @pytest.fixture(autouse=True)
@@ -45,25 +42,6 @@ def left(mark):
         except OSError:
             pass
     return found
-
-
-@pytest.fixture(scope="module")
-def few(tmp_path_factory):
-    room = tmp_path_factory.mktemp("few")
-    every = {"bodies": BODIES, "files": FILES, "rooms": ROOMS}
-    hand_in(room, **{name: {kind: every[name][kind] for kind in kinds} for name, kinds in QUICK.items()})
-    return room
-
-
-def test_harm_costs_the_function_that_does_it_and_nobody_else(few, mark, monkeypatch):
-    monkeypatch.setattr(process, "SLACK_S", 0.5)
-    found = {one.student: one.marks for one in grade(COURSE, [few], only=["49.0.1", "49.0.2"], time_limit=LIMIT)}
-    assert len(found) == sum(map(len, QUICK.values()))
-    for student, marks in found.items():
-        assert marks["49.0.2"].points == (student not in UNREADABLE), student
-        assert marks["49.0.1"].points == student.startswith("room"), student
-    assert not left(mark)
-    assert not (few / "was here").exists()
 
 
 @pytest.mark.slow

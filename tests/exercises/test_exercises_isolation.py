@@ -53,6 +53,7 @@ def said(folder, name, language="en", seed=None):
     return verdict.state, " ".join(message.split())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "body", "line"),
     sampled(
@@ -115,6 +116,7 @@ def test_pytest_goes_on_after_an_endless_loop(tmp_path):
     assert "Next: 49.0.1" in done.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux can limit the memory of a process")
 def test_ten_gigabytes_are_an_error_in_a_line_of_the_student(tmp_path):
     start(tmp_path, language="en")
@@ -125,6 +127,7 @@ def test_ten_gigabytes_are_an_error_in_a_line_of_the_student(tmp_path):
     assert message.endswith("big = np.ones(10**10 // 8)")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
 def test_a_fork_does_no_harm(tmp_path):
     start(tmp_path, language="en")
@@ -134,6 +137,7 @@ def test_a_fork_does_no_harm(tmp_path):
     assert said(tmp_path, "skew")[0] == "wrong"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="groups of processes are those of POSIX")
 def test_what_an_answer_starts_ends_with_the_check(tmp_path):
     start(tmp_path, language="en")
@@ -262,6 +266,7 @@ def test_words_are_asked_for_where_the_functions_are_right(tmp_path):
     assert "answer_49_8_1" in words.lines[0].en
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["tree_rnea"])
 def test_the_number_of_cases_does_not_depend_on_the_clock(name, monkeypatch):
     exercise, part = COURSE.find_part(name)
@@ -294,6 +299,7 @@ def test_numpy_is_that_of_the_others_while_a_change_is_call_or_none():
     assert seen == [True]
 
 
+@pytest.mark.slow
 def test_a_hint_is_shown_where_nothing_can_be_written_down(tmp_path, monkeypatch, capsys):
     def read_only(path, text):
         raise OSError(30, "Read-only file system", str(path))

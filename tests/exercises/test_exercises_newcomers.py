@@ -121,6 +121,7 @@ def by_inverse(model, q, v, tau):
 TWO_WAYS = [("torques_two_ways", by_rnea, by_matrix), ("forward_dynamics_two_ways", by_aba, by_inverse)]
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(("name", "first", "second"), TWO_WAYS)
 def test_two_ways_are_not_one(name, first, second):
     exercise, part = COURSE.find_part(name)
@@ -129,6 +130,7 @@ def test_two_ways_are_not_one(name, first, second):
         assert "the same to the last bit" in " ".join(said.split())
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize(("name", "first", "second"), TWO_WAYS)
 def test_two_honest_ways_are_two(name, first, second, seed):

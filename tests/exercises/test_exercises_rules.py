@@ -37,6 +37,7 @@ def test_every_rule_is_that_of_a_function_and_names_what_there_is(name):
     assert all(any(callable(getattr(room, called, None)) for room in rooms) for called in FORBIDDEN[name])
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("name", "function", "called"),
     [
@@ -136,6 +137,7 @@ def test_what_is_typed_or_run_by_exec_is_the_students(file):
     assert "line 2 calls tw.crba" in " ".join(found.message("en").split())
 
 
+@pytest.mark.slow
 def test_the_reference_is_refused_whatever_its_name(tmp_path):
     reference = COURSE.find_part("skew")[1].solution
     assert not check("49.0.1", reference, time_limit=0).right
@@ -156,6 +158,7 @@ def test_the_right_answer_is_not_there_while_the_students_function_runs():
     assert verdict("skew", skew).state == "wrong"
 
 
+@pytest.mark.slow
 def test_what_the_package_calls_by_itself_is_not_held_against_the_student():
     def by_levers(model, q):
         base = tw.forward_kinematics(model, q).placement[1]

@@ -54,6 +54,7 @@ def message(function, *args):
     return type(caught.value), str(caught.value)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_a_state_that_is_wrong_is_named_with_its_place_in_the_batch(backend):
     program = tw.compile(GO2, "aba", backend=backend)
@@ -87,6 +88,7 @@ def turned(s):
     s.q[..., 9] = 1e6
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("batch", sampled([(3, 9), ()], 1), ids=str)
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_other_states_stay_what_they_are(backend, batch):
@@ -136,6 +138,7 @@ ARGUMENTS = {
 }
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_the_textbook_takes_no_other_states(backend, monkeypatch):
     seen, results = [], quantity._results

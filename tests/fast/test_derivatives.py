@@ -83,6 +83,7 @@ def test_a_cart_pole(backend):
 # ---------------------------------------------------------------- laws
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("model", sampled([*MODELS.values()][1:], 3), ids=[*MODELS][1:])
 def test_the_laws_of_mechanics(model):
     q, v, a, tau, _ = random_state(model, rng=3)
@@ -119,6 +120,7 @@ def test_a_floating_base_does_not_feel_where_it_stands_nor_where_it_looks():
     close(dq[:, :3], program(model, "dg_dq")(q)[:, :3])  # turned: only gravity comes from another side
 
 
+@pytest.mark.one_case
 @some_models
 def test_the_derivatives_of_forward_dynamics_are_those_of_inverse_dynamics(model):
     q, v, _, tau, f_ext = random_state(model, rng=6)
@@ -182,6 +184,7 @@ def test_second_derivatives_by_name_are_complex_steps_of_the_first(robot, name):
 # ---------------------------------------------------------------- the page
 
 
+@pytest.mark.slow
 def test_the_page_runs_and_both_languages_have_the_same_code():
     pages = [page("derivatives", language).read_text(encoding="utf-8") for language in ("", ".zh-CN")]
     code, twin = (["".join(block.splitlines()) for block in blocks(text, 0, len(text))] for text in pages)
@@ -284,6 +287,7 @@ def cross(a, b):
     return np.array([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("model", sampled(MODELS.values(), 4), ids=MODELS)
 def test_fifty_digits(model):
     """A central difference over 1e-20 in 50 digits, of the way without spatial vectors."""
@@ -347,6 +351,7 @@ def test_batches(backend, batch):
             close(getattr(found, name)[k], getattr(one, name))
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_single_precision(backend):
     model = MODELS["go2"]

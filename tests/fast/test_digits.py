@@ -73,6 +73,8 @@ def of_go2(name, dtype=np.float64):
 # ---------------------------------------------------------------- programs of 32 digits
 
 
+@pytest.mark.slow
+@pytest.mark.one_case
 @pytest.mark.parametrize(("name", "backend"), sampled(WAYS, 2, several=True))
 def test_go2_has_thirty_digits(name, backend):
     model, args, right = of_go2(name)
@@ -154,6 +156,7 @@ def test_programs_of_digits_pickle(options):
         np.testing.assert_array_equal(np.asarray(one), np.asarray(other))
 
 
+@pytest.mark.slow
 def test_errors_are_the_textbooks():
     model = tw.load("go2")
     q, v = model.standing(), np.zeros(model.nv)

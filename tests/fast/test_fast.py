@@ -93,6 +93,7 @@ def test_errors_are_within_twice_those_of_the_textbook(recipe):
     assert_as_good(recipe.model, recipe.state(), [recipe.frame(), recipe.model.frame_names[-1]])
 
 
+@pytest.mark.slow
 @given(recipes(10))
 @settings(max_examples=2, deadline=None)
 def test_so_they_are_without_machine_code(recipe):
@@ -129,6 +130,7 @@ def test_so_they_are_a_thousand_kilometres_from_the_origin(dtype):
     assert_as_good(model, s, model.feet)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("base", ["fixed", "floating"])
 def test_so_they_are_where_the_base_stands_a_thousand_kilometres_away(base):
     """Here the placement of the first joint says so, for an arm and for a free-flyer on a fixed base."""
@@ -143,6 +145,7 @@ def test_so_they_are_where_the_base_stands_a_thousand_kilometres_away(base):
     assert_as_good(model, random_state(model, rng=1), ["three"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("off", sampled([1e-3, 1e-2, 1e-5], 1))
 def test_so_they_are_near_gimbal_lock(off):
     """Three turns at one point, nothing but the last with inertia, the middle one almost a right angle."""
@@ -195,6 +198,7 @@ def assert_same(model, s, contacts, *, rtol=1e-12):
         np.testing.assert_allclose(ours[name], right, rtol=0, atol=bound * size, err_msg=name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("batch", BATCHES)
 @pytest.mark.parametrize("base", sampled(["floating", "fixed"], 1))
 def test_any_batch_shape_works(batch, base):
@@ -277,6 +281,7 @@ def test_power_is_the_rate_of_energy():
 # ---------------------------------------------------------------- long chains
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", sampled([10, 1], 1))
 @pytest.mark.parametrize("base", sampled(["floating", "fixed"], 1))
 def test_long_chains_lose_no_digits_against_the_textbook(base, count):

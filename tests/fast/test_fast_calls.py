@@ -120,6 +120,7 @@ def test_unknown_names_are_refused():
     fast.dynamics(GO2, Q, V, contacts=["FR_fot"], want={"h"})  # nobody asked for J_c
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("n", [1, 10])
 def test_names_may_come_from_an_iterator(n):
     q, v = np.tile(Q, (n, 1)), np.tile(V, (n, 1))
@@ -272,6 +273,7 @@ def test_out_may_be_an_input(states, count):
     np.testing.assert_array_equal(tau, qdd)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("batch", [(), (3,), (12,)])
 @pytest.mark.parametrize("base", ["fixed", "floating"])
 def test_contacts_may_be_none_or_on_the_world(batch, base):
@@ -375,6 +377,7 @@ def bundle(chains: int, links: int) -> tw.Model:
     return built.build()
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("chains", "links", "want", "reason"),
     [
@@ -465,6 +468,7 @@ def test_a_program_goes_with_its_model_and_is_not_pickled():
     assert [reference() for reference in kept] == [None, None]
 
 
+@pytest.mark.slow
 def test_more_sets_of_contacts_than_are_remembered_are_right(monkeypatch):
     monkeypatch.setattr(programs, "MAX_CACHED_PROGRAMS", 3)
     monkeypatch.setattr(llvm, "available", lambda: False)

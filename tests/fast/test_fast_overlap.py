@@ -83,6 +83,7 @@ def strided(buffer, start, shape, order):
     return x[::-1] if order == "backwards" else x
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(("name", "argument", "result"), PAIRS, ids=lambda x: x)
 @given(
     model=st.sampled_from([MODEL, RUNNING]),

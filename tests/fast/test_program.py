@@ -41,6 +41,7 @@ def textbook(model, name, args, frame):
     return getattr(tw, name)(model, *args)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize("model", sampled(MODELS, 1), ids=lambda model: f"{model.name} {model.base} {model.nv}")
 def test_every_quantity_is_the_textbooks(model, backend):
@@ -69,6 +70,7 @@ def test_a_program_pickles():
     np.testing.assert_allclose(result.J_c, tw.contact_jacobian(model, model.standing(), ["FL_foot"]), atol=1e-6)
 
 
+@pytest.mark.slow
 def test_threads_give_the_same_numbers():
     model = tw.load("go2")
     s = random_state(model, rng=0, batch=(7, 100))
@@ -98,6 +100,7 @@ def test_a_program_is_called_by_several_threads_at_once():
         sys.setswitchinterval(usual)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_what_is_given_need_not_be_computed_with(backend):
     model = tw.load("go2")
@@ -112,6 +115,7 @@ def test_what_is_given_need_not_be_computed_with(backend):
     np.testing.assert_allclose(there(v[0]).M, tw.crba(model, q), rtol=0, atol=1e-12)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_a_state_that_is_wrong_is_named_as_by_the_textbook(backend):
     model = tw.load("go2")

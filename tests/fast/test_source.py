@@ -66,6 +66,7 @@ def test_jax_compiles_differentiates_and_maps_the_text():
     np.testing.assert_allclose(by_a, tw.crba(model, q[0]), atol=1e-12)  # ∂τ/∂a = M
 
 
+@pytest.mark.one_case
 @pytest.mark.skipif(shutil.which("cc") is None, reason="there is no C compiler")
 @pytest.mark.parametrize("name", ["rnea", "crba"])
 def test_the_c_text_is_c99(name, tmp_path):

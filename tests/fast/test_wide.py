@@ -44,6 +44,7 @@ def exactly(x):
         return sum(ne.as_mpmath(part) for part in parts)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("number", WIDE)
 @pytest.mark.parametrize("name", sampled(TRUTH, 2))
 def test_go2_has_all_digits(name, number):
@@ -98,6 +99,7 @@ def test_large_angles_are_right(number, angle):
         assert abs(found - right) < abs(right) * 1e-32
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("number", WIDE)
 def test_wide_numbers_go_in_and_batches_and_wrenches(number):
     model = aligned(tw.random_tree(4, rng=2, base="floating"))

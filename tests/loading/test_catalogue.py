@@ -141,6 +141,7 @@ def test_conda_installs_example_robot_data_without_cmeel(monkeypatch, tmp_path):
     assert catalogue.example_robot_data_folder() == folder
 
 
+@pytest.mark.slow
 def test_a_robot_is_read_with_lxml_alone_and_only_when_it_is_asked_for():
     """A reader of meshes would pull in trimesh, scipy and some thirty other packages, 266 MB."""
     show = "print('lxml' in sys.modules, *{'yourdfpy', 'trimesh', 'scipy'} & {*sys.modules})"

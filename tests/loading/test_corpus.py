@@ -73,6 +73,7 @@ def test_what_pinocchio_refuses_is_refused_for_a_reason_that_is_named():
     assert len(others) == len(ROWS) - len(BY_PINOCCHIO)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(FOLDER is None, reason="example-robot-data is not installed: its part of the corpus is not loaded")
 def test_verdicts_of_what_is_installed():
     known = {row["sha256"]: row for row in ROWS if row["package"].startswith("example_robot_data")}

@@ -184,6 +184,7 @@ def test_a_link_and_a_joint_of_one_name_in_two_places_keep_both_frames(tmp_path)
         model.frame("knee")
 
 
+@pytest.mark.slow
 def test_a_tree_of_a_thousand_links_needs_no_recursion(tmp_path):
     links = "".join(f'<link name="l{i}">{inertial()}</link>' for i in range(1001))
     joints = "".join(joint(f"j{i:04}", "revolute", f"l{i}", f"l{i + 1}") for i in range(1000))

@@ -105,6 +105,7 @@ def test_the_good_file_is_good(behaviour):
     assert not reported
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("where", ["above", "twice", "in its neighbour"])
 def test_an_element_in_the_wrong_place_is_not_passed_over(behaviour, where):
     for place in places():

@@ -13,9 +13,10 @@ import twistwrench as tw
 
 from ..badcalls import GOOD as EVERY
 from ..badcalls import SPECIAL
+from ..robots import shared
 
 FOLDERS = ["", ".bridge", ".fast", ".motions", ".newton_euler_3d", ".plot", ".templates", ".validate"]
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 REST = np.zeros(GO2.nv)
 GOOD = {
     "algorithm": "crba",

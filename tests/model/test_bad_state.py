@@ -8,7 +8,9 @@ import pytest
 
 import twistwrench as tw
 
-GO2 = tw.load("go2")
+from ..robots import shared
+
+GO2 = shared("go2")
 ARM = tw.chain(3)
 STAND = GO2.standing()
 REST = np.zeros(18)

@@ -9,6 +9,8 @@ import twistwrench as tw
 from twistwrench import bridge
 from twistwrench.spatial import SE3, SpatialInertia, exp3
 
+from ..robots import shared
+
 AT = SE3(exp3([0.3, -0.5, 0.2]), [0.1, 0.2, -0.3])
 
 
@@ -59,7 +61,7 @@ def test_energy_and_placements_are_those_of_the_parts(seed):
 
 
 def test_an_arm_on_a_dog_and_two_hands_on_an_arm():
-    dog, arm = tw.load("go2"), tw.load("planar_arm", base="floating")
+    dog, arm = shared("go2"), tw.load("planar_arm", base="floating")
     both = tw.attach(dog, arm, "base", placement=SE3(np.eye(3), [0, 0, 0.1]))
     assert both.joint_names[-3:] == ("shoulder", "elbow", "wrist")
     assert both.feet == dog.feet
@@ -74,14 +76,14 @@ def test_on_the_world_the_root_never_moves():
     floor = tw.Builder("floor", root="floor").build()
     arm = tw.attach(floor, tw.load("planar_arm", base="floating"), "floor")
     q = [0.3, -0.5, 0.2]
-    np.testing.assert_allclose(tw.crba(arm, q), tw.crba(tw.load("planar_arm"), q), rtol=0, atol=1e-15)
+    np.testing.assert_allclose(tw.crba(arm, q), tw.crba(shared("planar_arm"), q), rtol=0, atol=1e-15)
     assert arm.base == "fixed"
 
 
 def test_bad_parts_are_named():
-    dog = tw.load("go2")
+    dog = shared("go2")
     with pytest.raises(tw.ModelError, match="other: expected a floating base: a fixed one has dropped the mass"):
-        tw.attach(dog, tw.load("planar_arm"), "base")
+        tw.attach(dog, shared("planar_arm"), "base")
     with pytest.raises(tw.NameNotFound, match="unknown frame 'bse'"):
         tw.attach(dog, dog, "bse")
     with pytest.raises(TypeError, match="placement: expected an SE3"):
@@ -92,7 +94,7 @@ def test_bad_parts_are_named():
 
 
 def test_a_body_gets_the_inertia_that_is_given_in_a_frame():
-    dog, box = tw.load("go2"), SpatialInertia.from_box(1.0, [0.1, 0.2, 0.3])
+    dog, box = shared("go2"), SpatialInertia.from_box(1.0, [0.1, 0.2, 0.3])
     changed = tw.replace_inertia(dog, "FR_foot", box)
     i = dog.frame("FR_foot").body
     assert changed.inertia[i] == box.transform(dog.frame("FR_foot").placement)
@@ -115,7 +117,7 @@ def test_pinocchio_with_that_inertia_and_a_program_of_it_have_the_same_mass_matr
 
 
 def test_a_payload_weighs_what_it_weighs():
-    arm, q = tw.load("planar_arm"), [0.3, -0.7, 0.4]
+    arm, q = shared("planar_arm"), [0.3, -0.7, 0.4]
     i, g = arm.frame("tool").body, 9.81
     load = SpatialInertia.from_point(2.0).transform(arm.frame("tool").placement)
     loaded = tw.replace_inertia(arm, arm.joint_names[i], arm.inertia[i] + load)
@@ -124,7 +126,7 @@ def test_a_payload_weighs_what_it_weighs():
 
 
 def test_what_cannot_be_replaced_is_named():
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     with pytest.raises(tw.ModelError, match="link 'tool': the largest principal moment"):
         tw.replace_inertia(arm, "tool", SpatialInertia(1, [0, 0, 0], np.diag([1, 1, 3])))
     tw.replace_inertia(arm, "tool", SpatialInertia(1, [0, 0, 0], np.diag([1, 1, 3])), physical=False)

@@ -115,6 +115,7 @@ def lump(rng):
     return tw.SpatialInertia(rng.uniform(0.5, 2), rng.uniform(-0.1, 0.1, 3), np.diag([0.02, 0.03, 0.04]))
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("dtype", DTYPES)
 @pytest.mark.parametrize("base", sampled(["fixed", "floating"], 1))
 @pytest.mark.parametrize("kind", sampled(OWN, 2))
@@ -135,6 +136,7 @@ def test_fast_is_right_for_a_kind_that_it_has_never_seen(kind, base, dtype):
             assert np.abs(x - right).max() < size * max(1, np.abs(right).max())
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("kind", OWN)
 def test_a_kind_of_ones_own_can_be_simulated_and_its_digits_foretold(kind):
     model = robot(OWN[kind](), "fixed")

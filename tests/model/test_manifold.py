@@ -9,6 +9,7 @@ from twistwrench import bridge
 from twistwrench import newton_euler_3d as slow
 from twistwrench.model import KINDS, Joint
 
+from ..robots import shared
 from ..sampling import sampled
 from ..spatial.test_jacobians import truth
 
@@ -35,6 +36,7 @@ def test_every_kind_of_joint_is_looked_at():
     assert ours <= {*KINDS}
 
 
+@pytest.mark.one_case
 @KIND
 def test_a_complex_step_gives_the_derivatives(kind):
     model, h = tree(kind), 1e-30
@@ -134,7 +136,7 @@ def test_batch_axes_and_number_types_are_kept(kind, shape):
 
 
 def test_a_way_has_its_ends_and_as_many_points_as_asked_for():
-    model = tw.load("go2")
+    model = shared("go2")
     q0, q1, _ = states(model, 5)
     way = model.interpolate(q0, q1, np.linspace(0, 1, 7))
     assert way.shape == (7, model.nq)
@@ -164,7 +166,7 @@ def test_a_joint_of_ones_own_without_a_unit_part_needs_no_derivative():
 
 
 def test_a_mimic_model_has_them_too():
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     from twistwrench.algorithms.mimic import follow
 
     mimic = follow(arm, {"wrist": ("elbow", -1.0, 0.5)})
@@ -173,7 +175,7 @@ def test_a_mimic_model_has_them_too():
 
 
 def test_errors_name_the_argument():
-    model = tw.load("go2")
+    model = shared("go2")
     with pytest.raises(tw.ShapeError, match="v_dt: expected shape"):
         model.d_integrate(model.neutral(), np.ones(19))
     with pytest.raises(ValueError, match="q1: joint 'root_joint': the quaternion"):

@@ -14,10 +14,11 @@ import twistwrench as tw
 from twistwrench import bridge
 from twistwrench.model import Frame
 
+from ..robots import shared
 from ..strategies import Recipe, examples, random_state, recipes
 
 trees = given(recipes(12))
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 MIXED = Recipe(9, seed=5, base="floating").model
 
 
@@ -140,7 +141,7 @@ def test_random_configurations_repeat_with_their_seed():
 
 
 def test_random_configurations_of_go2_lie_within_its_limits_and_are_finite():
-    model = tw.load("go2")
+    model = shared("go2")
     q = np.array([model.random_configuration(rng=seed) for seed in range(100)])
     joints = q[:, 7:]
     assert (joints >= model.lower[7:]).all()
@@ -186,7 +187,7 @@ def test_nothing_that_later_results_depend_on_can_be_changed():
     for array in (*constants.S[1:], *constants.I, constants.gravity, constants.armature):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 1.0
-    go2 = tw.load("go2")
+    go2 = shared("go2")
     for held in (go2, tw.lock_joints(go2, ["FL_*"], go2.standing()).model, tw.Scene(go2, base="planar").model):
         with pytest.raises(ValueError, match="read-only"):
             held.postures["standing"][0] = 1.0
@@ -319,7 +320,7 @@ def test_state_brings_all_to_one_type_and_one_batch_shape_and_copies_nothing():
 
 
 def test_model_is_frozen():
-    go2 = tw.load("go2")
+    go2 = shared("go2")
     with pytest.raises(FrozenInstanceError):
         go2.name = "dog"
     for array in (go2.gravity, go2.armature, go2.lower, go2.upper, go2.velocity_limit, go2.effort_limit):
@@ -333,7 +334,7 @@ def test_model_is_frozen():
 
 
 def test_standing_posture_is_a_copy():
-    go2 = tw.load("go2")
+    go2 = shared("go2")
     stand = go2.standing()
     go2.standing()[:] = 0
     assert (go2.standing() == stand).all()

@@ -9,6 +9,7 @@ import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
 from twistwrench.model import idle_joints
 
+from ..robots import shared
 from ..strategies import examples, random_state, recipes
 from ..truth import ULPS, double, largest, skeel
 
@@ -105,7 +106,7 @@ def test_limits_and_armature_of_the_joints_that_are_left_are_kept():
 
 
 def test_each_state_of_a_batch_is_in_one_piece_for_the_programs_take_no_other_at_full_speed():
-    model = tw.load("go2")
+    model = shared("go2")
     q = np.tile(model.standing(), (7, 1))
     for x in tw.lock_joints(model, ["FL_*"], q[0]).reduce(q, q[:, :18]):
         assert x.flags.c_contiguous
@@ -154,7 +155,7 @@ def test_the_small_model_of_any_tree_is_the_full_one_with_still_joints(recipe, c
 @pytest.mark.parametrize("batch", [(1,), (3, 1, 2), (0,)])
 @pytest.mark.parametrize("dtype", [np.float32, np.longdouble, complex])
 def test_states_of_any_batch_and_number_type_go_both_ways(batch, dtype):
-    full = tw.load("humanoid")
+    full = shared("humanoid")
     reduction = tw.lock_joints(full, ["*shoulder*", "*elbow"], full.standing())
     q, v, *_ = random_state(reduction.model, rng=1, batch=batch, dtype=dtype)
     Q, V = reduction.expand(q, v)
@@ -166,7 +167,7 @@ def test_states_of_any_batch_and_number_type_go_both_ways(batch, dtype):
 
 
 def test_a_joint_locked_to_the_world_takes_its_body_out_of_the_model():
-    full = tw.load("go2")
+    full = shared("go2")
     small = tw.lock_joints(full, ["root_joint"], full.standing()).model
     assert (small.base, small.nv, small.frames["base"].body) == ("fixed", 12, 0)
     assert small.mass == pytest.approx(full.mass - full.inertia[1].mass)
@@ -302,13 +303,13 @@ def test_the_name_of_a_joint_is_no_pattern():
     ],
 )
 def test_joints_that_are_none_are_refused(joints, said):
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     with pytest.raises(ValueError, match=said):
         tw.lock_joints(arm, joints, arm.neutral())
 
 
 def test_a_configuration_that_is_none_is_refused():
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     with pytest.raises(tw.ShapeError, match="q: expected one real configuration"):
         tw.lock_joints(arm, ["wrist"], np.zeros((2, 3)))
     with pytest.raises(tw.ShapeError, match="q: expected one real configuration"):

@@ -9,6 +9,8 @@ import twistwrench as tw
 from twistwrench import bridge
 from twistwrench.spatial import SE3, SpatialInertia
 
+from ..robots import shared
+
 UPPER = SpatialInertia(2.0, [0.1, 0.0, -0.2], np.diag([0.03, 0.04, 0.02]))
 LOWER = SpatialInertia(1.0, [0.0, 0.05, -0.1], np.diag([0.01, 0.02, 0.015]))
 KNEE = SE3(np.eye(3), [0.0, 0.1, -0.4])
@@ -68,7 +70,7 @@ def test_the_motion_the_energy_and_the_momentum_are_the_same(seed):
 @pytest.mark.parametrize("frame", ["FL_foot", "RR_hip_joint", "base"])
 def test_pinocchio_moves_a_go2_hung_from_a_foot_as_one_hung_from_its_trunk(frame):
     pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the comparison with it is skipped")
-    go2, rng = tw.load("go2"), np.random.default_rng(1)
+    go2, rng = shared("go2"), np.random.default_rng(1)
     there = tw.reroot(go2, frame)
     q, v, motors = go2.random_configuration(rng=rng), rng.standard_normal(18), rng.standard_normal(12)
     tau = np.concatenate([np.zeros(6), motors])
@@ -83,7 +85,7 @@ def test_pinocchio_moves_a_go2_hung_from_a_foot_as_one_hung_from_its_trunk(frame
 
 
 def test_named_postures_and_feet_go_with_it():
-    go2 = tw.load("go2")
+    go2 = shared("go2")
     there = tw.reroot(go2, "FR_foot").model
     stand = there.standing()
     for foot in there.feet:
@@ -94,7 +96,7 @@ def test_named_postures_and_feet_go_with_it():
 @pytest.mark.parametrize(
     ("model", "frame", "said"),
     [
-        (tw.load("planar_arm"), "tool", "planar_arm.*floating"),
+        (shared("planar_arm"), "tool", "planar_arm.*floating"),
         (tw.attach(leg(), leg(), None, prefix="b_"), "b_foot", "b_foot.*the base"),
         (replace(leg(), armature=np.ones(7)), "foot", "root_joint.*armature"),
     ],

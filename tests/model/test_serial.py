@@ -12,6 +12,8 @@ import twistwrench as tw
 from twistwrench.model import Helical, Prismatic, Revolute
 from twistwrench.spatial import SE3, SpatialInertia, Twist, exp3, exp6
 
+from ..robots import shared
+
 PI = np.pi
 
 
@@ -146,7 +148,7 @@ def test_joints_beside_the_way_to_the_frame_have_columns_of_zeros():
     moving = [joint for i, joint in enumerate(tree.joint_names[1:]) if S[:, i].any()]
     assert moving == ["FR_hip_joint", "FR_thigh_joint", "FR_calf_joint"]
     with pytest.raises(tw.ModelError, match="joint 'root_joint': expected joints of one degree of freedom"):
-        tw.screw_axes(tw.load("go2"), "FR_foot")
+        tw.screw_axes(shared("go2"), "FR_foot")
 
 
 def test_bad_screw_axes_are_named():

@@ -17,8 +17,10 @@ from twistwrench.motions.inverse_kinematics import body_rates, follow
 from twistwrench.motions.jumping import FOUR_LEGS, Leap
 from twistwrench.motions.legs import stand
 
+from ..robots import shared
+
 G, H = 9.81, 1e-20
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 OWN = ("go2", "humanoid")
 DATA = ("solo12", "talos_reduced", "g1")
 NAMES = tuple(MOTIONS)
@@ -57,6 +59,7 @@ every = pytest.mark.parametrize(
 # ---------------------------------------------------------------- what every motion promises
 
 
+@pytest.mark.one_case
 @every
 def test_feet_that_stand_do_not_move(name, kind):
     model, m = robot(name), motion(name, kind)
@@ -110,6 +113,7 @@ def test_two_feet_with_soles_carry_all_motions(kind):
     assert ground(robot("humanoid"), motion("humanoid", kind)).margin.min() > 0
 
 
+@pytest.mark.slow
 def test_a_crawl_and_a_jump_of_go2_keep_the_pressure_inside_the_polygon_and_a_trot_does_not():
     """By as much as docs/templates.md says."""
     inside = {kind: ground(robot("go2"), motion("go2", kind)).margin.min() for kind in NAMES}
@@ -119,6 +123,7 @@ def test_a_crawl_and_a_jump_of_go2_keep_the_pressure_inside_the_polygon_and_a_tr
 # ---------------------------------------------------------------- v is the rate of q, a that of v
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("kind", NAMES)
 def test_velocity_and_acceleration_are_derivatives_by_a_complex_step(kind):
     standing, course = plan("go2", kind)
@@ -322,7 +327,7 @@ def test_a_jump_whose_turning_does_not_come_to_rest_is_none(monkeypatch):
 
 def test_what_has_no_legs_cannot_walk():
     with pytest.raises(tw.ModelError, match="'planar_arm': expected a floating base and feet, got a fixed one"):
-        tw.motions.walk(tw.load("planar_arm"))
+        tw.motions.walk(shared("planar_arm"))
     with pytest.raises(tw.ModelError, match="expected a leg of 3 joints"):
         tw.motions.walk(replace(robot("go2"), feet=("FL_calf_joint", "FR_hip_joint")))
     with pytest.raises(tw.ModelError, match="'fork': its legs share joints"):
@@ -339,6 +344,7 @@ def test_gravity_must_pull_down():
         ground(tilted, motion("go2", "walk"))
 
 
+@pytest.mark.slow
 def test_steps_that_are_too_long_are_refused():
     standing = stand(robot("go2"))
     steps = Steps(standing, replace(CRAWL, speed=0.5))
@@ -399,7 +405,7 @@ def test_arms_swing_against_the_legs_of_their_side():
 
 
 def test_a_motion_keeps_its_contacts_when_the_callers_change():
-    walk = tw.motions.walk(tw.load("go2"), samples=3)
+    walk = tw.motions.walk(shared("go2"), samples=3)
     given = {name: np.array(getattr(walk, name)) for name in ("t", "q", "v", "a", "contacts")}
     motion = tw.motions.Motion("mine", given["t"], given["q"], given["v"], given["a"], walk.feet, given["contacts"])
     for x in given.values():

@@ -10,6 +10,8 @@ from twistwrench import newton_euler_3d as slow
 from twistwrench.arrays import convert
 from twistwrench.newton_euler_3d.exact import Exact
 
+from ..robots import shared
+
 EXACT = Exact(np.dtype(object))
 TWO = tw.chain(2)
 
@@ -34,6 +36,7 @@ def same(got, expected, tolerance=1e-13):
     np.testing.assert_allclose(np.asarray(got).astype(float), expected, rtol=0, atol=tolerance * np.abs(expected).max())
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("name", ["go2", "double_pendulum", "cart_pole"])
 def test_fractions_give_what_doubles_give(name):
     model = tw.load(name)
@@ -48,7 +51,7 @@ def test_fractions_give_what_doubles_give(name):
 
 
 def test_what_is_an_identity_holds_to_the_last_digit():
-    model = tw.load("go2")
+    model = shared("go2")
     q, v, a = rational(model)
     M, h = slow.mass_matrix(model, q), slow.nonlinear_effects(model, q, v)
     assert (M == M.T).all()
@@ -59,7 +62,7 @@ def test_what_is_an_identity_holds_to_the_last_digit():
 
 
 def test_spatial_algebra_and_vectors_agree_in_fractions_to_the_last_digit():
-    model = tw.load("go2")
+    model = shared("go2")
     q, v, a = rational(model)
     assert (tw.rnea(model, q, v, a) == slow.inverse_dynamics(model, q, v, a)).all()
     assert (tw.crba(model, q) == slow.mass_matrix(model, q)).all()
@@ -117,4 +120,4 @@ def test_what_has_no_fraction_and_what_is_no_number_is_named():
     with pytest.raises(ValueError, match=r"q: expected numbers, got None at index \(1,\)"):
         slow.mass_matrix(TWO, [F(0), None])
     with pytest.raises(ValueError, match="the quaternion is zero"):
-        slow.mass_matrix(tw.load("go2"), [F(0)] * 19)
+        slow.mass_matrix(shared("go2"), [F(0)] * 19)

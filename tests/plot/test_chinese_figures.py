@@ -7,6 +7,8 @@ import pytest
 
 import twistwrench as tw
 
+from ..robots import shared
+
 matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed: no figures")
 
 
@@ -37,7 +39,7 @@ def test_chinese_words_are_text_of_the_right_width_and_no_glyph_is_missing(in_ch
 
 
 def test_what_a_picture_writes_by_itself_is_chinese_too(in_chinese):
-    model = tw.load("go2")
+    model = shared("go2")
     q = model.standing()
     ax = tw.plot.foot_forces(model, q, tw.static_equilibrium(model, q).forces)
     assert {line.get_label() for line in ax.lines} >= {"质心", "支撑多边形"}
@@ -45,7 +47,7 @@ def test_what_a_picture_writes_by_itself_is_chinese_too(in_chinese):
 
 
 def test_without_it_and_afterwards_the_words_are_english():
-    model = tw.load("go2")
+    model = shared("go2")
     with matplotlib.rc_context():
         tw.plot.chinese()
     assert "centre of mass" in {line.get_label() for line in tw.plot.robot(model, model.standing()).lines}

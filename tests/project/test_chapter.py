@@ -19,6 +19,7 @@ import twistwrench as tw
 from twistwrench.model.tree import tree_terms
 
 from ..pages import DOCS
+from ..robots import shared
 from .test_errata import CHINESE, ENGLISH, ENTRIES
 
 CHAPTER = DOCS / "chapter"
@@ -232,7 +233,7 @@ def pseudocode(chapter: str, name: str) -> str:
 
 @pytest.mark.parametrize("name", ["RNEA", "ABA", "CRBA"])
 def test_the_mended_pseudocode_is_right_for_a_floating_base(mended_chapter: str, name: str) -> None:
-    go2, rng = tw.load("go2"), np.random.default_rng(49)
+    go2, rng = shared("go2"), np.random.default_rng(49)
     q, (v, a) = go2.random_configuration(rng=rng), rng.standard_normal((2, go2.nv))
     tree, f_ext = tree_terms(go2, q), np.concatenate([np.zeros((1, 6)), rng.standard_normal((13, 6))])
     tau = np.concatenate([np.zeros(6), rng.standard_normal(12)])

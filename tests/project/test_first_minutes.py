@@ -15,8 +15,10 @@ from study.trade import SHORT, weigh
 import twistwrench as tw
 from twistwrench.cli import main
 
-GO2 = tw.load("go2")
-PENDULUM = tw.load("pendulum")
+from ..robots import shared
+
+GO2 = shared("go2")
+PENDULUM = shared("pendulum")
 
 
 @pytest.mark.parametrize(
@@ -164,6 +166,7 @@ def test_the_table_of_speeds_fits_into_a_hundred_columns():
     ]
 
 
+@pytest.mark.slow
 def test_the_tables_and_words_of_a_trade_fit_into_a_hundred_columns():
     pytest.importorskip("mpmath", reason="the truth is computed by mpmath")
     text = str(weigh("pendulum", only=["FD"], effort=SHORT))

@@ -80,6 +80,7 @@ def test_the_names_that_others_rely_on_are_there():
     assert {*tw.__all__, "plot", "exercises"} <= set(dir(tw))
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     "room",
     [
@@ -152,6 +153,7 @@ def python(code: str, *, executable: str | Path = sys.executable, cwd: Path | No
     return run.stdout.strip()
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("use", ["", "[getattr(tw, name) for name in tw.__all__]; tw.robots()"])
 def test_importing_leaves_the_heavy_packages_alone(use):
     loaded = python(f"import sys, twistwrench as tw; {use}\nprint(*sys.modules)").split()
@@ -185,6 +187,7 @@ for robot in tw.robots():
 """
 
 
+@pytest.mark.slow
 def test_numpy_lxml_and_tqdm_are_enough_to_compute_with_the_robots_that_come_along():
     optional = {*HEAVY, "viser", "daqp", "dask", "jax", "PIL"} - {"lxml", "tqdm"}
     lines = python(BARE.replace("{optional}", repr(optional))).splitlines()

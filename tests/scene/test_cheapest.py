@@ -12,10 +12,12 @@ from twistwrench.scene.candidates import Articulated, limbs, radius_of_gyration
 from twistwrench.scene.compiled import compile_law
 from twistwrench.templates import TEMPLATES, Template
 
+from ..robots import shared
+
 SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
 ARMS = ["*_shoulder_*", "*_elbow"]
 NEED = {"wrench": 0.02, "cop": 0.002, "forces": 0.02, "tau": 0.2}
-GO2, HUMANOID = tw.load("go2"), tw.load("humanoid")
+GO2, HUMANOID = shared("go2"), shared("humanoid")
 WALK = motions.walk(HUMANOID, samples=24)
 TROT = motions.trot(HUMANOID, samples=10)
 
@@ -145,6 +147,7 @@ def test_what_is_held_out_judges_the_choice_and_does_not_make_it(found):
     assert not replace(found, tolerance={"tau": found.best.worst("tau")}, margin=1.0).holds  # it is worse in a trot
 
 
+@pytest.mark.slow
 def test_several_motions_are_judged_together():
     scene, some = tw.Scene(GO2), [motions.walk(GO2, samples=5), motions.trot(GO2, samples=4)]
     both, each = quick(scene, some), [quick(scene, one) for one in some]
@@ -195,6 +198,7 @@ def test_the_table_and_the_picture_show_every_option_and_the_choice(found):
     assert [text.get_text().split(",")[0] for text in ax.texts] == [f"{o.worst():.2g}" for o in found.options]
 
 
+@pytest.mark.slow
 def test_the_order_is_the_same_whatever_the_clock_says(monkeypatch):
     """By operations: those that come later are quicker by this clock. Of what is no program only the time is known."""
     monkeypatch.undo()
@@ -219,7 +223,7 @@ def test_a_law_is_compiled_as_it_is_written():
         known = template.read(*state)
         (rate,) = compile_law(GO2, lambda *x, law=template.law: (law(*x),), known, [0])[0]()
         assert np.abs(rate - template.law(*known)).max() < 1e-13 * GO2.mass * 9.81
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     reach = motions.reach(arm, arm.neutral(), [1.0, -0.5, 0.2], samples=9)
     small = tw.lock_joints(arm, ["wrist"], arm.neutral())
     held = Articulated.of(arm, small.model, small.reduce)
@@ -260,6 +264,7 @@ def test_held_joints_that_are_still_cost_nothing():
     assert some["hold arms"].leaves_out == "The motion of 8 of 21 joints."
 
 
+@pytest.mark.slow
 def test_a_robot_loaded_from_a_file_is_judged_as_the_one_of_the_catalogue():
     """It knows no feet; the height of the pendulum is that above the scene's contacts."""
     unknown = replace(GO2, feet=(), postures={})
@@ -297,7 +302,7 @@ def test_without_gravity_the_pendulum_does_not_apply_and_the_rest_does():
 
 
 def test_an_arm_has_no_templates_but_held_joints():
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     motion = motions.reach(arm, arm.neutral(), [1.0, -0.5, 0.2], samples=12)
     groups = {"tip": ["wrist"], "mid": ["elbow"], "all": ["*"]}
     need = {"tau": 100.0, "of": ["shoulder", "elbow"], "wrench": 0.1}
@@ -346,6 +351,7 @@ def test_the_radius_of_gyration_is_that_of_the_templates():
     )
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("base", ["planar", "fixed"])
 def test_what_another_base_costs_is_a_row(base):
     walk = motions.walk(GO2, samples=4)

@@ -12,6 +12,7 @@ import twistwrench as tw
 from twistwrench import compile, fast, motions
 
 from ..pages import DOCS, blocks, names_author_and_licence, page, run
+from ..robots import shared
 from ..sampling import sampled
 from ..strategies import random_state
 from ..truth import largest
@@ -33,7 +34,7 @@ def close(ours, right, bound=2e-14):
 
 def test_the_scene_holds_the_smallest_model_and_keeps_all_frames():
     scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS)
-    full = tw.load("humanoid")
+    full = shared("humanoid")
     assert (scene.full_model.nv, scene.model.nv, scene.model.nbodies) == (27, 19, 15)
     assert scene.held == tuple(n for n in full.joint_names if "shoulder" in n or "elbow" in n)
     assert scene.contacts == tuple(SOLES)
@@ -77,7 +78,7 @@ def test_states_go_both_ways_on_every_base(base):
 
 def test_a_planar_base_slides_and_turns_on_the_floor_as_high_and_tilted_as_it_stood():
     """Beside the floating robot in the state that belongs to it: placements, twists, energy; M = XᵀM X."""
-    full = tw.load("go2")
+    full = shared("go2")
     stood = full.standing()
     stood[:7] = [1, 2, 0.4, *(np.array([0.1, -0.2, 0.5, 1.0]) / np.sqrt(1.3))]
     scene = tw.Scene(full, base="planar", q=stood)
@@ -98,7 +99,7 @@ def test_a_planar_base_slides_and_turns_on_the_floor_as_high_and_tilted_as_it_st
 
 
 def test_a_base_whose_x_axis_points_up_has_no_heading_and_still_goes_both_ways():
-    full = tw.load("go2")
+    full = shared("go2")
     stood = full.standing()
     stood[3:7] = [0, -np.sqrt(0.5), 0, np.sqrt(0.5)]
     scene = tw.Scene(full, base="planar", q=stood)
@@ -133,6 +134,7 @@ def test_gravity_is_the_scenes():
 # ---------------------------------------------------------------- what it computes
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("batch", sampled([(3, 1, 2), (1,), (20,), (0,), ()], 2))
 @pytest.mark.parametrize("dtype", sampled([np.float64, np.float32, np.longdouble, complex], 2))
 def test_dynamics_are_the_textbooks(batch, dtype):
@@ -215,7 +217,7 @@ def test_held_joints_are_no_work_and_the_rows_of_a_sole_that_no_one_asks_for_are
 
 
 def test_a_robot_stands_within_its_polygon_and_its_friction_cones():
-    tilt = tw.load("go2").standing()
+    tilt = shared("go2").standing()
     tilt[3:7] = [0, np.sin(0.3), 0, np.cos(0.3)]  # the trunk and the slope under it, by 0.6 rad
 
     def slope(mu):
@@ -243,7 +245,7 @@ def test_a_pose_beyond_the_limits_is_none():
 
 def weakened(limits: dict[str, float]) -> tw.Model:
     """Go2 with weaker motors: the limit of each joint named, N m."""
-    model = tw.load("go2")
+    model = shared("go2")
     effort = model.effort_limit.copy()
     for name, limit in limits.items():
         effort[model.v_slice[model.joint_id(name)]] = limit
@@ -253,7 +255,7 @@ def weakened(limits: dict[str, float]) -> tw.Model:
 def test_on_three_smooth_feet_the_torques_are_what_they_are_and_a_motor_is_strong_enough_or_not():
     """Three vertical forces follow from the weight alone, so the knee needs one torque."""
     smooth = [tw.PointContact(foot.frame, 0.0) for foot in FEET[1:]]
-    model = tw.load("go2")
+    model = shared("go2")
     p, G = (np.array([tw.frame_placement(model, model.standing(), f.frame).translation for f in smooth]), None)
     G = tw.center_of_mass(model, model.standing())
     f = np.linalg.solve(np.stack([np.ones(3), *p[:, :2].T]), 9.81 * model.mass * np.array([1, *G[:2]]))
@@ -270,7 +272,7 @@ def test_on_three_smooth_feet_the_torques_are_what_they_are_and_a_motor_is_stron
 def test_weak_motors_are_spared_where_other_forces_do():
     """The smallest limit of all four knees with which it stands, by a linear programme and a second solver."""
     optimize = pytest.importorskip("scipy.optimize", reason="scipy is not installed: there is no second solver")
-    model = tw.load("go2")
+    model = shared("go2")
     q, rest, knees = model.standing(), np.zeros(18), [f"{leg}_calf_joint" for leg in ("FL", "FR", "RL", "RR")]
     J, g, k = tw.constraint_jacobian(model, q, FEET), tw.gravity(model, q), [model.joint_id(name) + 4 for name in knees]
     corners = np.pi / 8 * np.arange(16)
@@ -310,7 +312,7 @@ def test_to_stand_takes_gravity_and_something_to_stand_on(given):
 
 def test_an_arm_holds_what_its_motors_hold():
     """By the moments of the weights about each joint, and with a hand on a table that takes some of them."""
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     q = np.array([0.4, 0.5, 0.6])
     need = np.abs(tw.gravity(arm, q))
     for share, holds in ((1.001, True), (0.999, False)):
@@ -341,7 +343,7 @@ def test_a_payload_is_a_body_and_not_a_force():
     rest = np.zeros(18)
     falls = tw.Scene("go2", payload={"base": 2.0})
     model = falls.model
-    assert falls.full_model.mass == pytest.approx(tw.load("go2").mass + 2.0, rel=1e-15)
+    assert falls.full_model.mass == pytest.approx(shared("go2").mass + 2.0, rel=1e-15)
     assert tw.aba(model, model.standing(), rest, rest)[3:6] == pytest.approx([0, 0, -9.81], abs=1e-12)
     pushed = tw.Scene("go2", wrenches={"base": [0, 0, 0, 0, 0, -2 * 9.81]})
     a = tw.aba(pushed.model, model.standing(), rest, rest, pushed.f_ext(model.standing()))
@@ -352,7 +354,7 @@ def test_a_payload_is_a_body_and_not_a_force():
 @pytest.mark.parametrize("frame", ["base", "FL_foot", "FR_hip_joint"])
 def test_a_payload_moves_as_a_body_that_is_welded_on(frame):
     """As a replaced inertia, as an attached model, and in Pinocchio."""
-    go2 = tw.load("go2")
+    go2 = shared("go2")
     q, v, a, *_ = random_state(go2, rng=2)
     body, at = go2.frame(frame).body, go2.frame(frame).placement
     turned = BOX.transform(AT)
@@ -377,7 +379,7 @@ def test_an_object_that_is_carried_may_touch():
     scene = tw.Scene(
         "humanoid", contacts=[*SOLES, tw.PointContact("crate_corner", 0.4)], payload={"left_hand": crate()}
     )
-    whole = tw.load("humanoid")
+    whole = shared("humanoid")
     assert scene.full_model.nv == whole.nv
     assert scene.full_model.mass == pytest.approx(whole.mass + 1.5)
     q = scene.model.standing()
@@ -403,6 +405,7 @@ def test_what_is_carried_counts_where_the_robot_stands():
 # ---------------------------------------------------------------- who touches when
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("robot", ["go2", "humanoid"])
 def test_the_phases_of_a_walk_are_scenes_whose_contacts_stand_still(robot):
     """J_c v = 0 and J_c a + J̇_c v = 0 in each phase, of point feet and of soles; their forces bear the motion."""
@@ -429,17 +432,17 @@ def test_the_phases_of_a_walk_are_scenes_whose_contacts_stand_still(robot):
 def test_a_hand_on_a_rail_stays_and_a_robot_in_the_air_touches_nothing():
     rail = [*SOLES, tw.PointContact("left_hand", 0.5)]
     scene = tw.Scene("humanoid", contacts=rail)
-    jump = motions.jump(tw.load("humanoid"), samples=20)
+    jump = motions.jump(shared("humanoid"), samples=20)
     names = [[c.frame for c in phase.scene.contacts] for phase in scene.phases(jump)]
     assert names == [["left_sole", "right_sole", "left_hand"], ["left_hand"], ["left_sole", "right_sole", "left_hand"]]
     assert scene.contacts == tuple(rail)
     both = tw.Scene("humanoid", contacts=[*SOLES, tw.LoopClosure("left_hand", "right_hand")])
     assert [len(phase.scene.contacts) for phase in both.phases(jump)] == [3, 1, 3]  # the hands hold each other
-    walk = motions.walk(tw.load("humanoid"), samples=3)
+    walk = motions.walk(shared("humanoid"), samples=3)
     assert both.cheapest(1e-9, replace(walk, feet=(), contacts=np.zeros((3, 0), bool))).best.worst() < 1e-9
     assert tw.Scene("humanoid").phases(jump)[0].states == slice(0, 20)
     with pytest.raises(tw.ShapeError):
-        scene.phases(motions.walk(tw.load("go2"), samples=2))
+        scene.phases(motions.walk(shared("go2"), samples=2))
 
 
 def test_in_an_elevator_the_feet_bear_the_robot_and_its_acceleration():
@@ -447,7 +450,7 @@ def test_in_an_elevator_the_feet_bear_the_robot_and_its_acceleration():
     up, belt = (
         [replace(foot, **given) for foot in FEET] for given in ({"acceleration": (0, 0, 2)}, {"velocity": (1, 0, 0)})
     )
-    lift, model = tw.Scene("go2", contacts=up), tw.load("go2")
+    lift, model = tw.Scene("go2", contacts=up), shared("go2")
     rest, rise, along = np.zeros(18), np.r_[0, 0, 0, 0, 0, 2.0, np.zeros(12)], np.r_[0, 0, 0, 1.0, np.zeros(14)]
     tau = tw.contact_inverse_dynamics(model, model.standing(), rest, rise, FEET).tau
     found = tw.contact_forward_dynamics(lift.model, model.standing(), rest, tau, lift.contacts)
@@ -481,7 +484,7 @@ def test_in_an_elevator_the_feet_bear_the_robot_and_its_acceleration():
         ({"payload": {"base": "2 kg"}}, ValueError, r"payload\['base'\]: expected"),
         ({"payload": [2.0]}, TypeError, "payload: expected what is carried by the names of frames"),
         ({"payload": {"base": 1.0}, "base": "fixed"}, tw.ModelError, "payload on frame 'base': the scene holds"),
-        ({"payload": {"base": tw.load("planar_arm")}}, tw.ModelError, "other: expected a floating base"),
+        ({"payload": {"base": shared("planar_arm")}}, tw.ModelError, "other: expected a floating base"),
         ({"wrenches": {"base": np.zeros(3)}}, tw.ShapeError, r"wrenches\['base'\]: expected shape"),
         ({"wrenches": {"base": np.zeros((2, 6))}}, tw.ShapeError, r"wrenches\['base'\]: expected shape \(6,\)"),
         ({"wrenches": {"base": [0, 0, 0, 0, 0, np.nan]}}, ValueError, r"wrenches\['base'\]: expected finite"),
@@ -508,7 +511,7 @@ def test_in_an_elevator_the_feet_bear_the_robot_and_its_acceleration():
         ({"gravity": [0, 0]}, tw.ShapeError, "gravity: expected shape"),
         ({"gravity": np.zeros((2, 3))}, tw.ShapeError, r"gravity: expected shape \(3,\)"),
         ({"q": np.zeros(18)}, tw.ShapeError, "this looks like nv"),
-        ({"q": np.tile(tw.load("go2").standing(), (2, 1))}, tw.ShapeError, "expected one real configuration"),
+        ({"q": np.tile(shared("go2").standing(), (2, 1))}, tw.ShapeError, "expected one real configuration"),
     ],
 )
 def test_a_scene_that_cannot_be_is_refused(given, error, said):
@@ -522,7 +525,7 @@ def test_friction_below_zero_is_refused_where_the_contact_is_made():
 
 
 def test_one_place_of_a_body_under_two_names_is_one_place():
-    frames = tw.load("humanoid").frames
+    frames = shared("humanoid").frames
     assert frames["left_sole"].body == frames["left_sole_joint"].body
     with pytest.raises(tw.ModelError, match="the same contact twice"):
         tw.Scene("humanoid", contacts=[tw.PointContact("left_sole", 0.7), tw.PointContact("left_sole_joint", 0.7)])
@@ -533,7 +536,7 @@ def test_a_robot_that_is_none_or_has_no_such_base_is_refused():
         tw.Scene("go3")
     for base in ("floating", "planar"):
         with pytest.raises(tw.ModelError, match="has a fixed base, not a " + base):
-            tw.Scene(tw.load("planar_arm"), base=base)
+            tw.Scene(shared("planar_arm"), base=base)
     assert tw.Scene("planar_arm", base="floating").model.nv == 9
 
 
@@ -558,6 +561,7 @@ def test_a_quantity_or_a_state_that_is_none_is_refused():
 # ---------------------------------------------------------------- its page
 
 
+@pytest.mark.slow
 def test_the_page_runs_and_both_languages_have_the_same_code_and_numbers():
     english, chinese = PAGES
     sources, twins = (blocks(path.read_text(encoding="utf-8"), 0, 10**6) for path in (english, chinese))

@@ -7,6 +7,8 @@ import pytest
 
 import twistwrench as tw
 
+from ..robots import shared
+
 STABLE = {"euler": 2.0, "semi-implicit": 2.0, "midpoint": 2.0, "rk4": 2.785}
 
 
@@ -22,6 +24,7 @@ def wheel(inertia):
     return builder.build()
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", STABLE)
 def test_a_damped_wheel_is_stable_up_to_the_step_that_the_message_names(method):
     """v⁺ = R(−dt kd / D) v, with the polynomial R of the method: closed form."""
@@ -42,7 +45,7 @@ def test_a_damped_wheel_is_stable_up_to_the_step_that_the_message_names(method):
 
 def test_the_ankle_of_a_humanoid_is_named():
     """The apparent inertia of its roll is that of the foot alone: 0.00015 kg m², and kd = 3 needs 0.1 ms."""
-    model = tw.load("humanoid")
+    model = shared("humanoid")
     q0 = model.standing()
 
     def hold(t, q, v):

@@ -12,6 +12,8 @@ import twistwrench as tw
 from twistwrench.simulation import cones, coulomb
 from twistwrench.spatial import rotation_to_quaternion
 
+from ..robots import shared
+
 G = 9.81
 HALF = np.array([0.1, 0.08, 0.05])  # m: half the sides of the box
 
@@ -28,7 +30,7 @@ def body(name, inertia, points):
 
 BOX = body("box", tw.SpatialInertia.from_box(2.0, 2 * HALF), [HALF * [x, y, -1] for x in (1, -1) for y in (1, -1)])
 BALL = body("ball", tw.SpatialInertia(1.0, np.zeros(3), 0.01 * np.eye(3)), [np.zeros(3)])
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 
 
 def corners(mu):
@@ -56,6 +58,7 @@ def downhill(ground):
 # ---------------------------------------------------------------- closed forms
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("way", [0.0, 0.7])
 def test_a_box_that_slides_stops_after_v2_over_2_mu_g_in_any_direction(way):
     """Of order 1 in dt: q goes along the velocity at the end of each step, which is short by v dt / 2."""
@@ -101,6 +104,7 @@ def test_the_largest_push_before_a_box_slips_is_mu_m_g(share, way):
     assert total[-1] == pytest.approx(expected, abs=1e-3)  # the box turns by as little as the solver leaves open
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("own", [False, True])
 def test_a_ball_bounces_to_e2_of_its_height_and_with_e_1_for_ever(own):
     """The step that hits ends on the ground, with e times the speed at which the fall ends there."""
@@ -273,6 +277,7 @@ def test_a_sole_stands_on_its_corners_and_rolls_over_its_edge():
 # ---------------------------------------------------------------- what a motion is worth
 
 
+@pytest.mark.slow
 def test_a_go2_that_hangs_on_its_own_feet_says_so():
     """Passive on feet that stick: they would slip, then pull; the legs leave their ranges and the trunk sinks."""
     q, rest = GO2.standing(), np.zeros(18)
@@ -322,7 +327,7 @@ def test_a_foot_that_leaves_the_ground_and_one_that_slides_are_noted():
 
 
 def test_the_work_of_the_joint_forces_is_what_the_energy_gains():
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
     clock = {"dt": 0.002, "steps": 200, "dt_control": 0.01}
     s = tw.simulate(model, [0.3, 0.2], [0.0, 0.0], tau=lambda t, q, v: [0.5, -0.2 * np.sin(9 * t)], **clock)
     assert s.work.shape == s.t.shape
@@ -333,7 +338,7 @@ def test_the_work_of_the_joint_forces_is_what_the_energy_gains():
 def test_the_error_of_a_step_is_that_of_its_order(method, order):
     errors = []
     for steps in (10, 20):
-        s = tw.simulate(tw.load("pendulum"), [2.0], [0.5], dt=1.0 / steps, steps=steps, method=method)
+        s = tw.simulate(shared("pendulum"), [2.0], [0.5], dt=1.0 / steps, steps=steps, method=method)
         errors.append(s.step_error()[1])
     assert np.log2(errors[0] / errors[1]) == pytest.approx(order + 1, abs=0.6)
 
@@ -376,6 +381,7 @@ def test_a_joint_stops_at_the_end_of_its_range_and_may_come_back():
     assert turn(rotor(lower=-0.1, upper=0.1), 0.0, q=0.1, tau=-1.0).q[-1] < 0.1
 
 
+@pytest.mark.slow
 def test_the_gain_of_a_drive_as_damping_needs_no_short_steps():
     """kd = 20 on a Go2 at 2 ms; as a policy it wants 0.25 ms, and here it diverges."""
     stiff = replace(GO2, damping=np.r_[np.zeros(6), np.full(12, 20.0)])
@@ -467,7 +473,7 @@ def test_a_joint_that_begins_beyond_its_range_is_refused():
 
 
 def test_the_first_joint_of_a_fixed_base_is_named_and_not_the_world():
-    arm = replace(tw.load("pendulum"), lower=[-1.0], upper=[1.0])
+    arm = replace(shared("pendulum"), lower=[-1.0], upper=[1.0])
     with pytest.raises(ValueError, match=f"q: joint {arm.joint_names[1]!r} begins 0.3 beyond its range"):
         tw.simulate(arm, [1.3], [0.0], dt=0.01, steps=1, method="time-stepping")
 

@@ -10,9 +10,10 @@ import pytest
 import twistwrench as tw
 
 from ..contact.test_loops import FOUR_BAR, PIN, four_bar_q
+from ..robots import shared
 
 G = 9.81
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 FEET = [tw.PointContact(foot, 0.6) for foot in GO2.feet]
 
 
@@ -105,7 +106,7 @@ def test_a_go2_with_a_coupled_joint_lands_and_keeps_the_coupling():
 
 
 def test_two_robots_in_one_model_are_two_robots():
-    other = tw.load("humanoid")
+    other = shared("humanoid")
     two = tw.attach(GO2, other, None, prefix="second_")
     rng = np.random.default_rng(1)
     q, v, a = two.random_configuration(rng=rng), rng.normal(size=two.nv), rng.normal(size=two.nv)
@@ -118,6 +119,7 @@ def test_two_robots_in_one_model_are_two_robots():
     assert two.standing().shape == (19 + other.nq,)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(("method", "share"), [("rk4", 1e-9), ("time-stepping", 2e-3)])
 def test_two_robots_that_hold_each_other_keep_their_momentum_together_and_each_gets_what_the_other_loses(method, share):
     """At dt = 2 ms, by methods of order 4 and 1."""

@@ -7,15 +7,18 @@ import twistwrench as tw
 from twistwrench.algorithms.mimic import follow
 from twistwrench.simulation import METHODS
 
+from ..robots import shared
+
 
 def arm():
-    return follow(tw.load("planar_arm"), {"wrist": ("elbow", -1.0, 0.5)})
+    return follow(shared("planar_arm"), {"wrist": ("elbow", -1.0, 0.5)})
 
 
 def shake(t, q, v):
     return np.array([np.sin(3 * t), 0.4]) - 0.2 * v
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", ["rk4", "midpoint", "semi-implicit", "time-stepping"])
 def test_an_arm_whose_wrist_follows_moves_as_its_projected_equations_say(method):
     """M = Gᵀ M_full G and h = Gᵀ h_full, by SciPy's DOP853, to the order of the method."""
@@ -73,9 +76,10 @@ def test_what_takes_no_couplings_refuses_it_by_name():
         tw.simulate(arm(), [0.3, 0.6], [0, 0], dt=0.01, steps=1, method="variational")
 
 
+@pytest.mark.slow
 def test_a_robot_whose_knees_follow_lands_on_the_ground():
     """Both hind knees by one coordinate: they stay alike, and in the end the feet carry the weight."""
-    go2 = tw.load("go2")
+    go2 = shared("go2")
     model = follow(go2, {"RR_calf_joint": ("RL_calf_joint", 1.0, 0.0)})
     feet = [tw.PointContact(foot, 0.6) for foot in go2.feet]
     stand = go2.standing()[model.kept_q]

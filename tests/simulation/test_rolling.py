@@ -9,6 +9,7 @@ import twistwrench as tw
 from twistwrench.simulation.ground import GroundPoints
 
 from ..mechanisms import G
+from ..robots import shared
 
 R, MU, MASS = 0.1, 0.3, 2.0
 BALL = tw.Builder(
@@ -111,9 +112,10 @@ def test_the_ground_is_computed_by_a_program_for_points_soles_and_balls():
         assert {type(program).__name__ for program in made} == {"Program"}
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("share", [0.98, 1.02])
 def test_a_stiff_humanoid_that_is_pushed_tips_over_its_toes_beyond_the_energy_that_lifts_its_centre_over_them(share):
-    h = tw.load("humanoid")
+    h = shared("humanoid")
     statue = tw.lock_joints(h, h.joint_names[2:], h.standing()).model
     q, soles = h.standing()[:7], [tw.SurfaceContact(f"{side}_sole", (0.076, 0.0275), 0.9) for side in ("left", "right")]
     toes = tw.frame_placement(statue, q, "left_sole").act([0.076, 0, 0])

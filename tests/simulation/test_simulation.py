@@ -15,6 +15,7 @@ from twistwrench.simulation import METHODS
 from twistwrench.simulation.variational import bracket, momentum_and_force
 from twistwrench.spatial import rotation_to_quaternion
 
+from ..robots import shared
 from ..sampling import sampled
 from ..strategies import Recipe
 
@@ -53,7 +54,7 @@ class Exact(NamedTuple):
 @cache
 def pendulum() -> Exact:
     """Let go from rest at 2 rad: sin ½q = k sn(K − ω t), with k = sin 1 and ω² = m g l / I."""
-    model, T, k, omega = tw.load("pendulum"), 0.5, mpmath.sin(1), mpmath.sqrt(mpmath.mpf(9.81) / mpmath.mpf("1.001"))
+    model, T, k, omega = shared("pendulum"), 0.5, mpmath.sin(1), mpmath.sqrt(mpmath.mpf(9.81) / mpmath.mpf("1.001"))
     u = mpmath.ellipk(k**2) - omega * T
     sn, cn = (mpmath.ellipfun(name, u, k=k) for name in ("sn", "cn"))
     end = float(2 * mpmath.asin(k * sn)), float(-2 * k * omega * cn)
@@ -112,6 +113,7 @@ def free_flight(model, T, R0, w0, R, w, speed) -> Exact:
 # ---------------------------------------------------------------- closed forms
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", ORDERS)
 @pytest.mark.parametrize("exact", [pendulum, symmetric_top, asymmetric_top], ids=lambda f: f.__name__)
 def test_the_order_is_the_one_of_theory(exact, method):
@@ -139,6 +141,7 @@ def tumble(model, rng=0):
     return model.random_configuration(rng=rng), rng.standard_normal(model.nv)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("seed", range(3))
 def test_the_momentum_of_a_robot_that_floats_freely_is_kept_to_rounding(seed):
     """By the variational method, at a step at which midpoint is visibly off."""
@@ -164,7 +167,7 @@ def test_with_gravity_the_momentum_about_the_vertical_and_the_horizontal_one_are
 
 def test_the_energy_of_the_variational_method_swings_and_does_not_drift():
     """Over 40 swings its error stays that of the first five; that of Runge-Kutta grows with time."""
-    model = tw.load("pendulum")
+    model = shared("pendulum")
     e = {m: tw.simulate(model, [2.0], [0.0], dt=0.2, steps=600, method=m).energy for m in ("variational", "rk4")}
     error = {m: np.abs(x - x[0]) for m, x in e.items()}
     first, last = (error["variational"][part].max() for part in (slice(0, 75), slice(-75, None)))
@@ -183,7 +186,7 @@ def test_the_energy_of_a_tumbling_body_is_held_over_long_times():
 
 def test_the_variational_step_is_symplectic():
     """Its Jacobian D in (q, p) of the double pendulum has Dᵀ Ω D = Ω; by central differences of 1e-5."""
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
 
     def step(method, x):
         q, p = x[:2], x[2:]
@@ -209,10 +212,11 @@ def test_the_variational_method_goes_back_the_way_it_came():
     assert np.abs(back.v[-1] + there.v[0]).max() < 1e-12
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", sampled(METHODS, 2))
 def test_where_a_robot_starts_makes_no_difference_without_gravity(method):
     """All methods work in the body's terms: a motion that is moved and turned is the same motion."""
-    model = floating_without_gravity(tw.load("go2"))
+    model = floating_without_gravity(shared("go2"))
     q, v = tumble(model)
     moved = q.copy()
     T = tw.SE3(tw.exp3([0.5, 1.0, -2.0]), np.array([3.0, -1.0, 2.0]))
@@ -237,7 +241,7 @@ def test_quaternions_stay_of_length_one(method):
 
 def test_what_a_policy_does_is_what_the_energy_gains():
     """dE/dt = τ·v, its integral by Simpson's rule."""
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
 
     def policy(t, q, v):
         return np.array([np.sin(3 * t), 0.2]) - 0.1 * v
@@ -337,7 +341,7 @@ def test_a_tree_of_balls_moves_as_3d_mechanics_and_dop853_say(method):
 @pytest.mark.slow
 def test_the_double_pendulum_moves_as_30_digits_say():
     """3-D mechanics in mpmath, Taylor series of its solution."""
-    model, q, v, T, tau = tw.load("double_pendulum"), [2.0, -1.0], [0.5, 3.0], 0.25, [0.3, -0.2]
+    model, q, v, T, tau = shared("double_pendulum"), [2.0, -1.0], [0.5, 3.0], 0.25, [0.3, -0.2]
     with mpmath.workdps(30):
         rate = textbook_rate(model, np.array([mpmath.mpf(x) for x in tau]))
         solution = mpmath.odefun(

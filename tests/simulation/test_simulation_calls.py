@@ -14,10 +14,11 @@ from twistwrench.simulation.variational import momenta
 
 from ..pages import blocks, page
 from ..pages import run as run_page
+from ..robots import shared
 from ..strategies import Recipe
 
-PENDULUM = tw.load("pendulum")
-DOUBLE = tw.load("double_pendulum")
+PENDULUM = shared("pendulum")
+DOUBLE = shared("double_pendulum")
 SMOOTH = [name for name in METHODS if name != "time-stepping"]  # which keeps the joints' ranges, in double precision
 
 
@@ -123,6 +124,7 @@ def test_a_momentum_is_seen_to_the_last_digit_whatever_else_is_in_the_batch():
         assert np.abs(batch[1] - one).max() < 1e-14
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", SMOOTH)
 @pytest.mark.parametrize("dtype", [np.float32, np.longdouble])
 def test_the_number_type_is_kept(method, dtype):
@@ -235,7 +237,7 @@ def test_the_summary_says_what_was_done_and_what_changed():
 
 
 def test_the_summary_of_a_flight_has_momenta_without_that_of_the_weight():
-    model = tw.load("go2")
+    model = shared("go2")
     s = tw.simulate(model, model.standing(), np.zeros(model.nv), dt=0.1, steps=5)
     rows = str(s).splitlines()
     assert len(rows) == 5
@@ -336,7 +338,7 @@ def test_forces_of_the_wrong_shape_are_refused_with_the_time():
 
 
 def test_the_torques_of_the_motors_alone_are_refused_with_a_hint():
-    model = tw.load("go2")
+    model = shared("go2")
     with pytest.raises(tw.ShapeError, match=r"got \(12,\) at t = 0; the six entries of the floating base come first"):
         tw.simulate(model, model.standing(), np.zeros(18), dt=0.01, steps=1, tau=lambda t, q, v: np.zeros(12))
 
@@ -358,8 +360,9 @@ def test_a_motion_that_leaves_all_bounds_is_refused_with_time_and_joint(method, 
         run(v=np.ones(2, dtype), dt=0.1, steps=500, tau=lambda t, q, v: 100 * v, method=method)
 
 
+@pytest.mark.slow
 def test_a_base_that_turns_more_than_once_in_a_step_is_refused():
-    model = replace(tw.load("go2"), gravity=np.zeros(3))
+    model = replace(shared("go2"), gravity=np.zeros(3))
     v = np.zeros(18)
     v[0] = 100
     with pytest.raises(tw.DivergenceError, match="turns by more than a whole turn in one step"):

@@ -8,10 +8,11 @@ import pytest
 import twistwrench as tw
 from twistwrench.spatial import rotation_to_quaternion
 
+from ..robots import shared
 from ..sampling import sampled
 from .test_simulation import ORDERS, pendulum
 
-GO2 = tw.load("go2")  # one for all, so that each program is made once
+GO2 = shared("go2")  # one for all, so that each program is made once
 WITH_CONTACTS = [method for method in ORDERS if method != "variational"]
 
 
@@ -143,6 +144,7 @@ def test_a_scene_brings_its_model_and_its_contacts():
     assert np.abs(a.q - b.q).max() < 1e-14
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", ["rk4", "variational"])
 def test_the_wrenches_of_a_scene_push(method):
     """A force on a frame off the base, in the axes of the world: as a policy that has Jᵀ f."""
@@ -206,7 +208,7 @@ def test_forces_and_torques_are_those_that_were_applied(integral):
 def test_the_torques_of_each_step_are_kept(method):
     said = []
     s = tw.simulate(
-        *(tw.load("double_pendulum"), [0.3, -0.5], [0.0, 1.0]),
+        *(shared("double_pendulum"), [0.3, -0.5], [0.0, 1.0]),
         dt=0.01,
         steps=4,
         method=method,

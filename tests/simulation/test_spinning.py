@@ -9,6 +9,7 @@ import twistwrench as tw
 from twistwrench.simulation.straight import go_straight, in_turned_axes, turning
 
 from ..mechanisms import G
+from ..robots import shared
 from .test_ground import BOX, HALF, body, corners
 
 
@@ -26,6 +27,7 @@ def world(s, k=-1):
 # ---------------------------------------------------------------- steps in axes that do not turn
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("spin", [[0, 0, 35.0], [35.0, 0, 0], [20.0, -30.0, 10.0]])
 def test_a_free_body_keeps_its_speed_and_goes_straight_on(spin):
     model = ball(0.1, gravity=(0, 0, 0))
@@ -50,7 +52,7 @@ def test_a_puck_and_a_body_that_floats_in_a_tree_go_straight_on():
 
 
 def test_a_step_that_goes_straight_shifts_then_turns_and_the_velocity_turns_back():
-    model, rng = tw.load("go2"), np.random.default_rng(0)
+    model, rng = shared("go2"), np.random.default_rng(0)
     q, u, v = model.random_configuration(rng=rng), 0.3 * rng.normal(size=18), rng.normal(size=18)
     there, base = go_straight(model, q, u), model.joint_names[1]
     before, after = (tw.frame_placement(model, x, base) for x in (q, there))
@@ -66,6 +68,7 @@ def test_a_step_that_goes_straight_shifts_then_turns_and_the_velocity_turns_back
 # ---------------------------------------------------------------- rolling and spinning
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("r", "mu", "speed"), [(0.1, 0.0, 0.0), (0.02, 0.5, 0.1), (0.0025, 0.5, 0.001), (0.1, 1e6, 3.5)]
 )
@@ -154,6 +157,7 @@ def test_a_box_on_one_corner_is_pushed_there_and_nowhere_else(mu):
         assert np.max(s.system.stepping.missed) < 1e-7
 
 
+@pytest.mark.slow
 def test_neither_friction_nor_restitution_nor_the_ground_makes_another_program():
     model, q, made = tw.load("go2"), tw.load("go2").standing(), []
     q[2] += 0.1

@@ -11,6 +11,8 @@ import twistwrench as tw
 from twistwrench.simulation import METHODS
 from twistwrench.spatial import quaternion_to_rotation
 
+from ..robots import shared
+
 
 class Example(NamedTuple):
     """A motion of docs/simulation.md or docs/control.md, or the beginning of it."""
@@ -36,7 +38,7 @@ def tumbling():
 
 
 def raised():
-    model = tw.load("pendulum")
+    model = shared("pendulum")
 
     def tau(t, q, v):
         return tw.gravity(model, q) + 20.0 * (np.pi / 2 - q) - 6.0 * v
@@ -52,7 +54,7 @@ def cart_pole():
 
 
 def go2_on_its_feet():
-    model = tw.load("go2")
+    model = shared("go2")
     posture, feet = model.standing(), tuple(tw.PointContact(foot, 0.6) for foot in model.feet)
     hold = tw.static_equilibrium(model, posture).tau
 
@@ -125,18 +127,19 @@ def test_forces_that_were_held_are_held_again():
         calls.append(t)
         return -v
 
-    motion = tw.simulate(tw.load("pendulum"), [1.0], [0.0], dt=0.01, steps=20, tau=policy, dt_control=0.02)
+    motion = tw.simulate(shared("pendulum"), [1.0], [0.0], dt=0.01, steps=20, tau=policy, dt_control=0.02)
     asked = len(calls)
     error = motion.step_error()
     assert len(calls) == asked == 10
     assert 0 < max(error) < 1e-7
 
 
+@pytest.mark.slow
 def test_a_motion_and_an_error_under_a_lambda_leave_a_worker():
     """As a process does it: by a pickle, in which the policy stays behind."""
 
     def moved(gain):
-        return tw.simulate(tw.load("pendulum"), [1.0], [0.0], dt=0.01, steps=2000, tau=lambda t, q, v: gain * v)
+        return tw.simulate(shared("pendulum"), [1.0], [0.0], dt=0.01, steps=2000, tau=lambda t, q, v: gain * v)
 
     with pytest.raises(tw.DivergenceError) as raised:
         moved(1e3)

@@ -7,6 +7,8 @@ import twistwrench as tw
 from twistwrench.simulation import METHODS
 from twistwrench.simulation.straight import go_straight, in_turned_axes, straight_rate
 
+from ..robots import shared
+
 EXPLICIT = ("euler", "semi-implicit", "midpoint", "rk4")
 
 
@@ -16,6 +18,7 @@ def ball(gravity=(0.0, 0.0, 0.0)):
     return tw.Builder("ball", base="floating", root="ball", root_inertia=inertia, gravity=gravity).build()
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("direction", [(0, 0, 1), (1, 0, 0), (0.6, -0.48, 0.64)])
 def test_a_spinning_ball_goes_straight_on(method, direction):
@@ -26,6 +29,7 @@ def test_a_spinning_ball_goes_straight_on(method, direction):
     np.testing.assert_allclose(motion.q[-1, :3], [7.0, 0, 0], rtol=0, atol=1e-11)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("method", METHODS)
 def test_a_spinning_puck_goes_straight_on(method):
     builder = tw.Builder("ice", base="fixed", gravity=(0, 0, 0))
@@ -89,7 +93,7 @@ def test_the_rate_of_a_straight_way_is_its_derivative():
 
 def test_the_semi_implicit_method_keeps_the_energy_nearly_where_m_is_constant():
     """A pendulum, and a spinning ball on a spring: the error of the last swings is that of the first."""
-    swings = tw.simulate(tw.load("pendulum"), [2.0], [0.0], dt=0.02, steps=4000, method="semi-implicit")
+    swings = tw.simulate(shared("pendulum"), [2.0], [0.0], dt=0.02, steps=4000, method="semi-implicit")
     model = ball()
 
     def spring(t, q, v):

@@ -96,6 +96,7 @@ def test_a_quotient_by_what_is_zero_is_left_to_the_alarm():
 # ---------------------------------------------------------------- the same numbers
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("name", ["panda", "go2"])
 @pytest.mark.parametrize("want", ["M", "A_G", "qdd"])
 def test_in_60_digits_nothing_changes(name, want, monkeypatch):

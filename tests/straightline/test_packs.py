@@ -21,6 +21,7 @@ def filled(code, line, arrays):
     return results
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(("robot", "want"), [("go2", "rnea"), ("go2", "crba"), ("talos_left_arm", "aba")])
 @pytest.mark.parametrize("states", [1, 7, 100])
 def test_a_pack_computes_the_same_bits_as_one_operation_after_the_other(robot, want, states, monkeypatch):

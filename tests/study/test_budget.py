@@ -16,8 +16,9 @@ import twistwrench as tw
 from twistwrench.motions.support import needs
 
 from ..pages import page
+from ..robots import shared
 
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 WALK = tw.motions.walk(GO2, samples=60)
 TROT = tw.motions.trot(GO2, samples=60)
 
@@ -121,6 +122,7 @@ def test_a_template_of_the_whole_body_leaves_out_the_legs_alone():
 # ---------------------------------------------------------------- the command and the page
 
 
+@pytest.mark.slow
 def test_the_command_prints_and_writes(tmp_path, capsys):
     picture, file = tmp_path / "b.svg", tmp_path / "b.json"
     pytest.importorskip("matplotlib", reason="matplotlib is not installed: the picture is not drawn")

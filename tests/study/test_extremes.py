@@ -2,6 +2,7 @@
 
 import importlib
 import json
+import random
 import re
 import sys
 from dataclasses import replace
@@ -41,6 +42,7 @@ def fifty_digits():
 ODD = [Recipe(mass_ratio=1e9), Recipe(light=0.0), Recipe(leaves=True, tip=1e-12), Recipe(distance=1e9, length=1e-9)]
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("recipe", ODD, ids=lambda recipe: str(recipe.changed))
 def test_without_torques_and_at_rest_every_robot_falls_as_one_body(recipe):
     model, s = recipe.model, recipe.state
@@ -107,6 +109,7 @@ def test_a_robot_at_rest_in_free_space_stays_there():
     assert not accelerations(model, s._replace(v=0 * s.v), 0 * s.v).any()
 
 
+@pytest.mark.slow
 def test_of_a_long_robot_some_columns_of_the_mass_matrix_are_judged(monkeypatch):
     recipe = Recipe()
     whole = truth(recipe.model, recipe.state)
@@ -138,6 +141,7 @@ def usual_errors():
     return {(o.algorithm, o.who): o.error for o in measure(Recipe(), pinocchio=False)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("unit", sampled(["length", "mass", "time"], 1))
 @pytest.mark.parametrize("scale", sampled([2.0**-30, 2.0**30], 1), ids=["1e-9", "1e9"])
 def test_the_same_robot_in_other_units_loses_nothing(unit, scale):
@@ -173,6 +177,7 @@ def test_the_speed_of_the_base_is_its_own():
     assert np.array_equal(fast.a, usual.a)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("length", [1e-9, 1e-3, 1.0, 1e3])
 def test_a_solver_s_choice_of_pivots_does_not_depend_on_units(length):
     """`fast.aba` of one state solved the base's 6 × 6 equations in kg and m: 2e-9 was lost where rotors are heavy."""
@@ -222,8 +227,8 @@ def test_no_cell_is_silently_bad():
 
 
 @pytest.mark.slow
-def test_no_tenth_cell_of_the_short_form_is_silently_bad():
-    nothing_is_silent(cells(full=False)[::10])
+def test_no_fortieth_cell_of_the_short_form_is_silently_bad():
+    nothing_is_silent(cells(full=False)[random.randrange(40) :: 40])
 
 
 def test_pinocchio_is_not_asked_for_robots_that_it_has_no_room_for(monkeypatch):
@@ -376,6 +381,7 @@ def test_the_map_shows_a_nan_in_red_what_is_refused_hatched_and_pairs_by_their_w
     assert [patch.get_hatch() for patch in said.patches] == ["/////"]  # sure of nothing
 
 
+@pytest.mark.slow
 def test_the_command_does_without_pinocchio_and_scipy(monkeypatch, capsys):
     for name in ("pinocchio", "scipy", "scipy.spatial.transform"):
         monkeypatch.setitem(sys.modules, name, None)
@@ -436,6 +442,7 @@ def test_the_page_counts_the_robots_of_the_grid(language):
     assert [int(number) for number in said] == [len(cells(full=full)) for full in (False, True)]
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("error")
 def test_every_block_of_the_page_runs(capsys):
     first, parts = numbered("extremes")

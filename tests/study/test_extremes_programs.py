@@ -16,6 +16,7 @@ import twistwrench as tw
 SYMBOLS = {"rnea": "tau", "crba": "M", "centroidal map": "A_G", "aba, steered": "steered", "aba, pushed": "pushed"}
 
 
+@pytest.mark.slow
 def test_errors_against_32_digits_are_those_against_50():
     recipe = Recipe(bodies=2, mass_ratio=1e3)
     model, s = recipe.model, recipe.state

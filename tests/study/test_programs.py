@@ -12,6 +12,7 @@ from twistwrench.advice import USES, advise
 from twistwrench.cli import main
 
 from ..pages import blocks, page, run
+from ..robots import shared
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
@@ -23,6 +24,7 @@ def maker(monkeypatch):
     return importlib.import_module("programs")
 
 
+@pytest.mark.slow
 def test_the_code_of_the_page_runs_and_is_the_same_in_both_languages():
     texts = [page("compile", language).read_text(encoding="utf-8") for language in ("", ".zh-CN")]
     code = [blocks(text, 0, len(text)) for text in texts]
@@ -47,7 +49,7 @@ def test_each_rule_saves_what_the_page_says(maker):
 
 
 def test_without_a_rule_the_numbers_are_the_same(maker):
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
     q, v, a = np.array([[0.3, -0.4], [1.0, 2.0], [0.5, 0.6]])
     for tape in maker.RULES.values():
         with maker.recorded_on(tape):
@@ -59,7 +61,7 @@ def test_without_a_rule_the_numbers_are_the_same(maker):
 @pytest.mark.parametrize("use", USES)
 def test_every_use_is_measured(use):
     pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth to hold anything against")
-    found = advise(tw.load("double_pendulum"), use, rounds=1)
+    found = advise(shared("double_pendulum"), use, rounds=1)
     assert found.seconds > 0
     largest = {"float32": 1e-1, "float64": 1e-9, "double-double": 1e-27, "50 digits": 1e-45}[found.number]
     assert 0 <= found.error < largest

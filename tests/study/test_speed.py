@@ -14,11 +14,13 @@ from study.speed import Speed, speed, table
 import twistwrench as tw
 from twistwrench.timing import round_robin
 
+from ..robots import shared
 from ..sampling import sampled
 
-HUMANOID = tw.load("humanoid")
+HUMANOID = shared("humanoid")
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("quantity", sampled(QUANTITIES, 2))
 def test_both_ways_are_asked_for_the_same(quantity):
     s = random_states(HUMANOID, 3)
@@ -29,7 +31,7 @@ def test_both_ways_are_asked_for_the_same(quantity):
 
 
 def test_random_states_are_repeated_when_there_are_many():
-    s = random_states(tw.load("pendulum"), 1500)
+    s = random_states(shared("pendulum"), 1500)
     np.testing.assert_array_equal(s.q[1000:], s.q[:500])
     assert len(np.unique(s.v)) == 1000
 
@@ -42,7 +44,7 @@ def test_what_does_ten_times_the_work_takes_longer():
 @pytest.mark.slow
 def test_every_quantity_is_timed_in_every_way_and_shown():
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: there is nothing to compare with")
-    model = tw.load("pendulum")
+    model = shared("pendulum")
     found = list(speed(model, rounds=1, states=10))
     assert [row.way for row in found[:5]] == ["Pinocchio", "textbook", "fast", "fast, 10 states", "fast, 10 float32"]
     assert len(found) == 5 * len(QUANTITIES)
@@ -51,6 +53,7 @@ def test_every_quantity_is_timed_in_every_way_and_shown():
     assert all(meaning in text for meaning in QUANTITIES.values())
 
 
+@pytest.mark.slow
 def test_without_pinocchio_times_stand_alone(monkeypatch):
     text = table(HUMANOID, [Speed("rnea", "fast", 12.3456, 12, 13, None, disturbed=True)])
     assert "Pinocchio is not installed" in text
@@ -59,7 +62,7 @@ def test_without_pinocchio_times_stand_alone(monkeypatch):
     assert "other things to do" not in table(HUMANOID, [Speed("rnea", "fast", 12.3456, 12, 13, None, False)])
     monkeypatch.setattr("study.speed.find_spec", lambda name: None)
     monkeypatch.setattr("study.speed.round_robin", partial(round_robin, least=0, most=0))
-    found = list(speed(tw.load("pendulum"), rounds=1, states=2))
+    found = list(speed(shared("pendulum"), rounds=1, states=2))
     assert len(found) == 4 * len(QUANTITIES)
     assert {row.ratio for row in found} == {None}
 

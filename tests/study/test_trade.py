@@ -15,6 +15,7 @@ import twistwrench as tw
 from twistwrench import timing as clock
 
 from ..pages import blocks, page, run
+from ..robots import shared
 
 pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth to hold anything against")
 
@@ -112,7 +113,7 @@ def floating() -> Trade:
 
 @pytest.fixture(scope="module")
 def fixed() -> Trade:
-    return weigh("double_pendulum", effort=SHORT)
+    return weigh("double_pendulum", effort=QUICK)
 
 
 def approximate(p: Point) -> bool:
@@ -384,6 +385,7 @@ def test_what_is_below_the_picture_is_said(errors, said):
     assert [text.get_text().removeprefix("on the bottom line: ") for text in ax.texts] == said
 
 
+@pytest.mark.slow
 def test_the_command_shows_a_bar_if_told_to(capsys):
     assert study_main(["trade", "pendulum", "--short", "--only", "M", "--progress"]) == 0
     assert "M: " in capsys.readouterr().err
@@ -417,7 +419,7 @@ def test_misuse_has_status_2(wrong, capsys):
 
 def test_a_model_has_its_base_already():
     with pytest.raises(ValueError, match=r"base: a Model has its base \(fixed\) already, got 'floating'"):
-        weigh(tw.load("pendulum"), base="floating")
+        weigh(shared("pendulum"), base="floating")
 
 
 @pytest.mark.parametrize("name", ["states", "batch", "rounds"])
@@ -426,6 +428,7 @@ def test_an_effort_of_nothing_is_refused(name):
         Effort(**{name: 0})
 
 
+@pytest.mark.slow
 def test_the_base_and_the_seed_count():
     fixed, floating = (weigh("pendulum", base=b, only=["M"], effort=QUICK) for b in ("fixed", "floating"))
     assert "fixed base" in fixed.description
@@ -439,6 +442,7 @@ def test_a_robot_that_does_not_move_is_refused():
         weigh(tw.Builder("stone").build())
 
 
+@pytest.mark.slow
 def test_without_pinocchio_and_scipy_their_ways_are_left_out_and_a_line_says_so(monkeypatch):
     for name in ("pinocchio", "scipy", "scipy.linalg", "scipy.spatial.transform"):
         monkeypatch.setitem(sys.modules, name, None)
@@ -595,6 +599,7 @@ def test_the_humanoid_keeps_more_digits_by_aba_than_by_its_mass_matrix(maker):
         assert min(solved) > 4 * errors["tw.aba", number]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["", ".zh-CN"])
 def test_the_code_of_the_page_runs(language):
     path = page("trade", language)
@@ -607,6 +612,7 @@ def test_the_code_of_the_page_runs(language):
     )
 
 
+@pytest.mark.slow
 def test_a_trade_that_is_stopped_keeps_what_was_measured(tmp_path, monkeypatch, capsys):
     pytest.importorskip("mpmath", reason="mpmath is not installed: the study has no truth")
     whole, calls = trade_run.measure, []

@@ -27,10 +27,11 @@ from twistwrench.templates.template import com_acceleration, locked_inertia
 from twistwrench.timing import Lap
 
 from ..pages import blocks, page, run
+from ..robots import shared
 from ..strategies import BATCHES
 from ..touching import on_bodies
 
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 STAND, REST = GO2.standing(), np.zeros(18)
 G = 9.81
 BRICK = tw.SpatialInertia(3.0, [0.1, -0.2, 0.3], np.diag([0.02, 0.03, 0.04]))
@@ -312,7 +313,7 @@ def test_a_template_of_ones_own_is_a_few_lines():
 
 
 def test_a_fixed_base_has_no_template():
-    arm = tw.load("planar_arm")
+    arm = shared("planar_arm")
     for kind in TEMPLATES.values():
         with pytest.raises(ValueError, match="'planar_arm': expected a floating base, got a fixed one"):
             kind.of(arm, arm.neutral())
@@ -378,6 +379,7 @@ def code_of(path):
     return blocks(text, 0, len(text))
 
 
+@pytest.mark.slow
 def test_the_page_runs():
     run(PAGES[0], code_of(PAGES[0]))
 

@@ -12,6 +12,8 @@ import twistwrench as tw
 from twistwrench.tracing.stepper import formula, stepper
 from twistwrench.tracing.words import FORMULAS, TERMS, WORDS
 
+from ..robots import shared
+
 NEEDS = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "ccrba": ()}
 
 
@@ -93,7 +95,7 @@ def test_where_the_bodies_are():
 
 
 def test_a_turned_base_changes_the_accelerations_and_not_the_twists():
-    model = tw.load("go2")
+    model = shared("go2")
     q = model.standing()
     turned = model.integrate(q, [0.5, *np.zeros(17)])
     traces = {str(k): tw.trace(model, "rnea", x, np.ones(18), np.zeros(18)) for k, x in enumerate((q, turned))}
@@ -151,7 +153,7 @@ def test_keys_buttons_and_bodies_lead_from_line_to_line(tmp_path):
     chromium = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
     if chromium is None:
         pytest.skip("no chromium on the PATH, and $CHROMIUM is not set: no page is opened")
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
     traces = {str(q): tw.trace(model, "rnea", [q, 0.0], [1.0, 0.0], [0.0, 0.0]) for q in (0.0, 0.5)}
     (tmp_path / "page.html").write_text(f"<!doctype html><meta charset='utf-8'>{stepper(traces)}", encoding="utf-8")
     with sync_api.sync_playwright() as play:

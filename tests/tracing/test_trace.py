@@ -9,13 +9,15 @@ import pytest
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
 
+from ..robots import shared
+
 SOURCE = Path(tw.__file__).parent
 ULPS = 1e-13
 """Relative: two ways of computing one number, on trees of a dozen bodies."""
 
 MODELS = {
-    "go2": tw.load("go2"),
-    "humanoid": tw.load("humanoid"),
+    "go2": shared("go2"),
+    "humanoid": shared("humanoid"),
     **{f"tree {seed}": tw.random_tree(9, rng=seed, base=base) for seed, base in ((1, "fixed"), (2, "floating"))},
 }
 
@@ -252,6 +254,7 @@ def test_the_tree_has_every_body_once_below_its_parent():
         assert len(depth) == trace.model.nbodies
 
 
+@pytest.mark.one_case
 def test_a_notebook_shows_the_same_lines_as_the_table(case):
     for trace in traces(case):
         html = trace._repr_html_().partition("<details>")[2]
@@ -292,7 +295,7 @@ def test_what_adds_up_is_told_child_by_child(case):
 
 
 def test_a_trace_keeps_its_values_when_the_callers_arrays_change():
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
     q, v, a, f_ext = np.array([0.3, 0.4]), np.ones(2), np.ones(2), np.ones((3, 6)) * [[0.0], [1.0], [1.0]]
     trace = tw.trace(model, "rnea", q, v, a, f_ext=f_ext)
     before = [np.array(step.value) for step in trace.steps]
@@ -324,9 +327,9 @@ def test_a_trace_keeps_its_values_when_the_callers_arrays_change():
 )
 def test_what_cannot_be_traced_is_said(arguments, error, said):
     with pytest.raises(error, match=re.escape(said)):
-        tw.trace(tw.load("double_pendulum"), *arguments)
+        tw.trace(shared("double_pendulum"), *arguments)
 
 
 def test_the_mass_matrix_refuses_wrenches_that_could_change_nothing():
     with pytest.raises(ValueError, match="f_ext: expected none, since neither M nor A_G depends on it"):
-        tw.trace(tw.load("pendulum"), "crba", [0.0], f_ext=np.zeros((2, 6)))
+        tw.trace(shared("pendulum"), "crba", [0.0], f_ext=np.zeros((2, 6)))

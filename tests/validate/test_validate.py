@@ -49,6 +49,7 @@ def go2_judge():
 # ---------------------------------------------------------------- what is right passes
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     "robot",
     ["pendulum", "double_pendulum", "cart_pole", "planar_arm", "go2", pytest.param("humanoid", marks=pytest.mark.slow)],
@@ -330,6 +331,7 @@ def test_frames_of_both_legs_are_compared():
     assert {name.partition("_")[0] for name in sample_frames(tw.load("humanoid"), 2)} == {"left", "right"}
 
 
+@pytest.mark.one_case
 @needs_pinocchio
 @pytest.mark.parametrize(("named", "rows"), [((), 22), (("middle",), 29)])
 def test_a_model_of_pinocchio_s_need_not_have_a_frame_on_every_tip(named, rows):
@@ -481,6 +483,7 @@ def test_the_table_fits_100_columns():
 # ---------------------------------------------------------------- many robots
 
 
+@pytest.mark.slow
 def test_a_sweep_runs_in_several_processes_and_keeps_the_order():
     which = [("pendulum", "fixed"), ("double_pendulum", "fixed"), ("nonsense", "fixed")]
     found = list(sweep.sweep(which, jobs=2, states=2))

@@ -24,11 +24,12 @@ from twistwrench.viewing.shapes import shapes
 from twistwrench.viewing.state import subject
 
 from ..pages import FENCE, names_author_and_licence, page, run
+from ..robots import shared
 
 pytest.importorskip("matplotlib", reason="matplotlib is not installed: the pictures are not checked")
 from matplotlib.figure import Figure
 
-GO2 = tw.load("go2")
+GO2 = shared("go2")
 SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("left", "right")]
 
 
@@ -120,9 +121,9 @@ def test_the_figure_shows_frames_centre_of_mass_polygon_and_forces_in_their_plac
 def test_frames_that_are_asked_for_are_the_only_ones_and_carry_their_names(space):
     tw.view("planar_arm", frames=[], ax=space)
     without = len(space.lines)
-    tw.view("planar_arm", frames=iter([tw.load("planar_arm").frame_names[-1]]), ax=space)
+    tw.view("planar_arm", frames=iter([shared("planar_arm").frame_names[-1]]), ax=space)
     assert len(space.lines) == 2 * without + 3
-    assert [text.get_text().strip() for text in space.texts] == [tw.load("planar_arm").frame_names[-1]]
+    assert [text.get_text().strip() for text in space.texts] == [shared("planar_arm").frame_names[-1]]
 
 
 def test_a_model_without_frames_is_shown(space):
@@ -228,6 +229,7 @@ def test_two_feet_on_the_ground_are_joined_by_a_line():
     np.testing.assert_allclose(np.sort(lengths), [0, 0, apart, apart], rtol=1e-5)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("ground", [None, tw.Ground()])
 def test_a_simulation_shows_its_own_contacts_and_forces(ground):
     """On a ground those of a step are shown where it ends: in the air there are none, and no polygon."""
@@ -437,7 +439,7 @@ def test_meshes_of_another_robot_are_not_put_on(tmp_path):
     path.write_text(URDF.format("gone.stl"), encoding="utf-8")
     assert shapes(GO2, path) == []
     assert shapes(GO2, None) == []
-    assert shapes(tw.load("planar_arm"), "planar_arm") == []
+    assert shapes(shared("planar_arm"), "planar_arm") == []
 
 
 def test_our_robots_have_the_meshes_of_example_robot_data_and_none_without_it(monkeypatch):
@@ -478,7 +480,7 @@ def test_a_page_stands_alone(browser, tmp_path):
 
 
 def test_the_page_of_a_motion_is_longer_and_one_of_a_state_has_a_slider_for_each_joint(browser):
-    model = tw.load("double_pendulum")
+    model = shared("double_pendulum")
     still = browser(model, [0.1, 0.2])
     sliders = [handle.label for handle in still._server.gui._gui_input_handle_from_uuid.values()]
     assert sliders == list(model.joint_names[1:])
@@ -672,9 +674,10 @@ def test_what_cannot_be_shown_is_said(arguments, options, error, said):
 def test_meshes_without_their_reader_say_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "yourdfpy", None)
     with pytest.raises(ModuleNotFoundError, match=r'yourdfpy, .* "twistwrench\[view\]"; meshes=False draws sticks'):
-        shapes(tw.load("planar_arm"), find("planar_arm").path)
+        shapes(shared("planar_arm"), find("planar_arm").path)
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_picture(tmp_path):
     assert main(["view", "go2", "--output", str(tmp_path / "go2.png")]) == 0
     assert (tmp_path / "go2.png").read_bytes().startswith(b"\x89PNG")
@@ -756,15 +759,17 @@ def test_the_command_says_what_it_cannot_do(tmp_path, capsys, monkeypatch):
 # ---------------------------------------------------------------- docs/view.md
 
 
+@pytest.mark.slow
 def test_the_part_of_the_page_that_needs_a_browser_runs_too(tmp_path, monkeypatch):
     pytest.importorskip("viser", reason="viser is not installed: the browser is not checked")
     monkeypatch.chdir(tmp_path)
     (code,) = re.findall(r"^```py\n(.*?)^```$", page("view").read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
-    model = tw.load("go2")
+    model = shared("go2")
     exec(code, {"tw": tw, "trot": motions.trot(model, samples=4)})
     assert (tmp_path / "trot.html").stat().st_size > 500_000
 
 
+@pytest.mark.slow
 def test_the_page_runs_prints_what_it_shows_and_is_the_same_in_both_languages(capsys):
     import matplotlib.pyplot as plt
 

@@ -119,7 +119,7 @@ def comparable(x: NDArray[Any]) -> NDArray[Any]:
 
     Examples
     --------
-    >>> judged(np.array([Fraction(1, 2), 3], object)), judged(np.array([1 + 2j]))
+    >>> comparable(np.array([Fraction(1, 2), 3], object)), comparable(np.array([1 + 2j]))
     (array([0.5, 3. ]), array([1.]))
     """
     if x.dtype != object:

@@ -114,7 +114,7 @@ def draw_interruptions(rng: np.random.Generator, calls: int) -> set[int]:
 
     Examples
     --------
-    >>> sorted(often(np.random.default_rng(1), 10))
+    >>> sorted(draw_interruptions(np.random.default_rng(1), 10))
     [2, 7, 13]
     """
     return {5 * k + int(rng.integers(5)) for k in range(calls // 5 + 1)}

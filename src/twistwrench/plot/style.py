@@ -126,7 +126,7 @@ def as_drawable(value: ArrayLike, name: str, *tail: int) -> Array:
 
     Examples
     --------
-    >>> drawn([0, 0, 1e300], "point", 3)
+    >>> as_drawable([0, 0, 1e300], "point", 3)
     Traceback (most recent call last):
     ValueError: point: expected at most 1e+100, which can be drawn, got 1e+300
     """
