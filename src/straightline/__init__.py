@@ -72,6 +72,7 @@ recorder       `straight_line`: from a function to its line
 tangent        derivatives of what is on a tape
 outputs        arrays of the caller that are to be filled
 extension      a line as a function of the interpreter, by the memory of CPython's and NumPy's objects; can be left out
+ufunc          a line as a function of NumPy's: any leading axes and strides
 backend        `BackEnd`: which of them runs a line, or plain Python's floats
 =============  ===============================================================================================
 """

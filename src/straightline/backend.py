@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -11,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from . import extension
+from . import extension, ufunc
 from .line import Line
 from .llvm import MachineCode, lanes
 from .number import Array
@@ -24,6 +25,7 @@ NONE: Mapping[str, Array] = {}
 
 MAX_SINGLE_STATES = 20  # without LLVM, up to so many states are done one by one, in plain Python; more of them by NumPy
 MIN_STATES_PER_THREAD = 64  # a thread does at least so many states
+MAX_ARRAYS = 32  # arguments and results of a function of NumPy
 KEPT = 2**25 - 2**16  # bytes, a little less than the 32 MiB up to which glibc learns: see `keep_memory`
 
 
@@ -35,12 +37,14 @@ class BackEnd:
         # the sines of pairs are rounded to whole numbers, which `math` does not do
         self.few = MAX_SINGLE_STATES if dtype == np.float64 and "round" not in line.operations else 0
         self._codes: dict[int, MachineCode] = {}
+        self.addresses = (ctypes.c_void_p * 3)()  # of machine code for one state, and for several: see `ArrayFunction`
         keep_memory()
 
     def machine_code(self, width: int) -> MachineCode:
         """Return machine code for so many states at once."""
         if width not in self._codes:
             self._codes[width] = MachineCode(self.line, self.dtype, width)
+            self.addresses[width > 1] = self._codes[width].address
         return self._codes[width]
 
     @cached_property
@@ -61,6 +65,17 @@ class BackEnd:
         if self.name != "llvm" or not extension.POSSIBLE:
             return None
         return extension.state_function(self.machine_code(1), self.line, self.dtype, single)
+
+    def array_function(self) -> ufunc.ArrayFunction | None:
+        """Return a function of arrays with any leading axes, of which the last result decides: see `ufunc`.
+
+        None if there can be none: without machine code, without an entry in an argument, or with too many arrays.
+        """
+        line, arguments = self.line, self.line.inputs.values()
+        few = len(line.inputs) + len(line.outputs) <= MAX_ARRAYS
+        if self.name != "llvm" or not ufunc.POSSIBLE or not few or not line.inputs or not all(map(prod, arguments)):
+            return None
+        return ufunc.ArrayFunction(self.line, self.dtype, self.addresses, lanes(self.dtype))
 
     def code(self, count: int) -> MachineCode | Plain | Registers:
         """Return what is quickest for so many states: its `run` fills the results, as rows, from the arguments."""

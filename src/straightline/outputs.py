@@ -15,7 +15,7 @@ import numpy as np
 
 from .number import Array
 
-__all__ = ["Tail", "check_outputs", "finish", "targets"]
+__all__ = ["Tail", "check_outputs", "finish", "separate", "targets"]
 
 WORK = 10_000  # effort of the search for a common byte of two arrays; after that they count as sharing memory
 
@@ -70,6 +70,11 @@ def finish(given: Mapping[str, Array], filled: Mapping[str, Array]) -> dict[str,
         if not np.may_share_memory(out, filled[name]):
             out[...] = filled[name]
     return {**filled, **given}
+
+
+def separate(arrays: Sequence[Array]) -> bool:
+    """Return whether no two of these arrays may share memory, as far as is seen at once."""
+    return not any(np.may_share_memory(x, y) for x, y in combinations(arrays, 2))
 
 
 def _rows(x: Array, count: int, size: int) -> Array | None:

@@ -421,38 +421,31 @@ def test_a_program_is_made_once_for_each_question_and_number_type():
     assert len(model._programs) == 4
 
 
-def calls_until(function, last):
-    """Return the names of the functions that are called, one within the other, until the last one."""
+def calls_within(function):
+    """Return the names of the functions of Python that a call goes through."""
     way = []
-
-    def look(frame, event, _):
-        if not way and event == "call" and frame.f_code.co_name == last:
-            while frame is not None and frame.f_code.co_name != function.__name__:
-                way.append(frame.f_code.co_qualname)
-                frame = frame.f_back
-
-    sys.setprofile(look)
+    sys.setprofile(lambda frame, event, _: way.append(frame.f_code.co_qualname) if event == "call" else None)
     try:
         function()
     finally:
         sys.setprofile(None)
-    return way[::-1]
+    return way[1:]
 
 
 @pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
-def test_from_a_function_to_its_machine_code_there_are_four_calls(states):
-    """A reader can follow them; for one state there is one less, and nothing is looked for a second time."""
-
-    def batch():
-        return fast.rnea(GO2, states.q, states.v, states.a)
-
-    def single():
-        return fast.rnea(GO2, states.q[0], states.v[0], states.a[0])
-
-    batch(), single()
-    way = ["rnea", "result", "Program.__call__", "BackEnd.results", "MachineCode.run"]
-    assert calls_until(batch, "run") == way
-    assert calls_until(single, "one_state") == ["rnea", "result", "one_state"]
+@pytest.mark.parametrize("leading", [(), (1,), (3, 4)], ids=str)
+@pytest.mark.parametrize("pushed", [False, True], ids=["", "f_ext"])
+def test_from_a_function_to_its_machine_code_there_are_four_calls(leading, pushed):
+    """A reader can follow them, and nothing is looked for a second time, whatever the leading axes are."""
+    s = random_state(GO2, rng=0, batch=leading)
+    f_ext = s.f_ext if pushed else None
+    fast.rnea(GO2, s.q, s.v, s.a, f_ext)
+    way = calls_within(lambda: fast.rnea(GO2, s.q, s.v, s.a, f_ext))
+    assert [name for name in way if "." not in name] == ["rnea", "result", "remembered"]
+    assert way[3] == "Program.results"
+    assert way[4:] in ([], ["Program._of_arrays"])
+    out = np.empty((*leading, 18))
+    assert "Program._general" not in calls_within(lambda: fast.rnea(GO2, s.q, s.v, s.a, f_ext, out=out))
 
 
 def test_a_program_goes_with_its_model_and_is_not_pickled():

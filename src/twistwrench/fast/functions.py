@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import combinations
 
 from numpy.typing import ArrayLike
 
@@ -10,9 +11,13 @@ from ..algorithms.floating_base import HeldRows, as_frames, as_held
 from ..algorithms.whole_body import QUANTITIES, Dynamics, select_quantities
 from ..arrays import Array
 from ..model import Model, check_model
-from .programs import one_state, program, result, states_of
+from .programs import program, remembered, result, states_of
 
 __all__ = ["aba", "centroidal_map", "crba", "dynamics", "nonlinear_effects", "rnea"]
+
+KINDS = (tuple, list, set, frozenset)
+SETS = {frozenset(names): names for k in range(1 + len(QUANTITIES)) for names in combinations(QUANTITIES, k)}
+"""All that may be wanted, in the order of `QUANTITIES`."""
 
 
 def rnea(
@@ -176,24 +181,35 @@ def dynamics(
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
     check_model(model)
-    if out is None and type(want) is tuple and (contacts is None or type(contacts) is tuple):
-        feet = model.feet if contacts is None else contacts
-        found = one_state(model, want, feet if "J_c" in want else (), (q, v))
-        if found is not None:
-            made = object.__new__(Dynamics)  # whose own way, entry by entry, takes a third as long as the program
-            vars(made).update(zip(want, found))
-            return made
-    names = select_quantities(want)
-    want = tuple(name for name in QUANTITIES if name in names)
-    contacts = as_frames(model.feet if contacts is None else contacts)
-    if "J_c" in want:
-        as_held(model, contacts)  # raises for those that the model has not
-    if not isinstance(out, Dynamics | None):
-        raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
-    args, dtype = states_of(model, {"q": q, "v": v})
-    given = None if out is None else {name: x for name in want if (x := getattr(out, name)) is not None}
-    found = program(model, want, dtype, tuple(contacts) if "J_c" in want else ())(*args, out=given)
-    return Dynamics(**{name: getattr(found, name) for name in want})
+    names = in_order(want)
+    if contacts is None:
+        contacts = model.feet
+    elif type(contacts) is not tuple:
+        contacts = as_frames(contacts)
+    given = None
+    if out is not None:
+        if not isinstance(out, Dynamics):
+            raise TypeError(f"out: expected a Dynamics, got {type(out).__name__}")
+        given = {name: x for name in names if (x := getattr(out, name)) is not None}
+    held = contacts if "J_c" in names else ()
+    found = remembered(model, names, held, (q, v), given)
+    if found is None:
+        as_held(model, held)  # raises for those that the model has not
+        args, dtype = states_of(model, {"q": q, "v": v})
+        computed = program(model, names, dtype, held)(*args, out=given)
+        found = [getattr(computed, name) for name in names]
+    made = object.__new__(Dynamics)  # whose own way, entry by entry, takes a third as long as the program
+    vars(made).update(zip(names, found))
+    return made
+
+
+def in_order(want: Iterable[str]) -> tuple[str, ...]:
+    """Return which quantities are wanted, in the order of `QUANTITIES`; raise NameNotFound for other names."""
+    try:
+        names = SETS.get(frozenset(want)) if type(want) in KINDS else None
+    except TypeError:  # what is no name, which the next line says
+        names = None
+    return SETS[frozenset(select_quantities(want))] if names is None else names
 
 
 def aba(

@@ -13,8 +13,9 @@ from numpy.typing import ArrayLike
 
 from straightline.backend import BackEnd
 from straightline.line import Line
-from straightline.outputs import check_outputs, finish, targets
+from straightline.outputs import check_outputs, finish, separate, targets
 from straightline.source import c_source, python_source
+from straightline.ufunc import ArrayFunction
 
 from ..arrays import Array
 from ..errors import ShapeError
@@ -26,6 +27,9 @@ from .recording import ALARM, record
 __all__ = ["Program", "Results"]
 
 NOTHING: Mapping[str, Array] = {}
+
+LARGE = 2**16
+"""Bytes: smaller arrays of the caller are filled by a copy, quicker than to ask what they share memory with."""
 
 
 def check_held(dtype: np.dtype[Any], given: Mapping[str, Any], checked: Mapping[str, Array]) -> None:
@@ -84,8 +88,6 @@ class Program:
     ----------
     arguments : tuple of str
         The names of the program's arguments, in their order.
-    one_state : callable, optional
-        What answers for one state, once one was asked for, where each 0.1 µs counts: see `straightline.extension`.
 
     Examples
     --------
@@ -116,14 +118,25 @@ class Program:
         self._plain = tuple(name for name in self.arguments if name != "f_ext")
         self._shapes = {name: shapes(model)[name] for name in self.arguments}
         self._one = [self._shapes[name] for name in self._plain]
+        self._symbols = [quantity.symbol for quantity in quantities]
         self._codes: dict[tuple[str, ...], BackEnd] = {}
-        self.one_state: Callable[..., Any] | None = None
+        self._alone: dict[
+            int, Callable[..., Any] | None
+        ] = {}  # by the number of arguments: f_ext, the last, may be there
+        self._functions: dict[int, ArrayFunction | None] = {}
 
     def run_by(self, backend: str) -> None:
         """Let another back end run the program, without recording it again."""
         self.backend = backend
+        self._alone.clear()
+        self._functions.clear()
         for code in self._codes.values():
             code.name = backend
+
+    @property
+    def one_state(self) -> Callable[..., Any] | None:
+        """What answers for one state without f_ext, once one was asked for: see `straightline.extension`."""
+        return self._alone.get(len(self._plain))
 
     @property
     def operations(self) -> Counter[str]:
@@ -207,14 +220,90 @@ class Program:
         TypeError
             If an argument is missing, is not one of the program's, or is a `DoubleDouble`.
         """
-        if out is None and not named:
-            one = self.one_state
-            if one is None and self.backend == "llvm" and [getattr(x, "shape", None) for x in args] == self._one:
-                one = self.one_state = self._code(self._plain).one_state(self.single)
-            found = one(*args) if one else None
-            if found is not None:
-                return found if self.single else Results(**dict(zip((x.symbol for x in self.quantities), found)))
-        states = self._states(self._bound(args, named))
+        if named:
+            args = tuple(self._bound(args, named).values())
+        found = self.results(args, out)
+        if found is None:
+            return self._general(args, out)
+        return found if self.single else Results(**dict(zip(self._symbols, found)))
+
+    def results(self, args: Sequence[Any], out: Any = None) -> Any:
+        """Return the only result, or a tuple of all; None for what takes the general way, as each first call does.
+
+        Here is what a control loop calls: arrays of the program's number type with any leading axes and strides, in
+        ordinary states, and an `out` that NumPy could fill as well. Nothing is looked at twice.
+        """
+        if out is None:
+            if alone := self._alone.get(len(args)):
+                found = alone(*args)
+                if found is not None:
+                    return found
+            return self._of_arrays(args)
+        if not self.single:
+            return self._into(args, out)
+        if type(out) is not np.ndarray or not out.flags.carray:
+            return None
+        if out.nbytes > LARGE:
+            return self._written(args, {self._symbols[0]: out})
+        found = self.results(args)
+        if found is None or out.shape != found.shape or out.dtype != found.dtype:
+            return None
+        out[...] = found
+        return out
+
+    def _into(self, args: Sequence[Any], out: Mapping[str, Array]) -> Any:
+        """Return a tuple of all results as `results` does, of which some are written to arrays of the caller."""
+        given = [*out.values()] if isinstance(out, Mapping) else [None]
+        if not all(type(x) is np.ndarray and x.flags.carray for x in given) or not separate(given):
+            return None
+        if sum(x.nbytes for x in given) > LARGE:
+            return self._written(args, out)
+        found = self.results(args)
+        if found is None:
+            return None
+        by_symbol = dict(zip(self._symbols, found))
+        if not all(x.shape == by_symbol[name].shape and x.dtype == self.dtype for name, x in out.items()):
+            return None
+        for name, x in out.items():
+            x[...] = by_symbol[name]
+        return tuple((by_symbol | dict(out)).values())
+
+    def _of_arrays(self, args: Sequence[Any], out: Sequence[Array | None] | None = None) -> Any:
+        """Return the results as `results` does, or None; `out` is known to fit."""
+        function = self._functions.get(len(args))
+        if function is None:
+            return None
+        for x in args:
+            if type(x) is not np.ndarray or x.dtype != self.dtype:
+                return None
+        try:
+            found = function.call(*args) if out is None else function.call(*args, out=(*out, None))
+            alarm: Any = found[-1]
+            worst = alarm.item(alarm.argmax()) if type(alarm) is np.ndarray else alarm
+        except ValueError:  # the shapes do not fit, or there are no states
+            return None
+        if not worst <= 1:
+            return None
+        return found[0] if self.single else found[:-1]
+
+    def _written(self, args: Sequence[Any], out: Mapping[str, Array]) -> Any:
+        """Return the results as `results` does, written where they are wanted: in arrays that share nothing."""
+        names = self.arguments[: len(args)]
+        code = self._codes.get(names)
+        if code is None or not all(type(x) is np.ndarray and separate([x, *out.values()]) for x in args):
+            return None
+        try:
+            batch = np.broadcast_shapes(*(x.shape[: x.ndim - len(self._shapes[name])] for name, x in zip(names, args)))
+        except ValueError:
+            return None
+        shapes = {name: (*batch, *shape) for name, (shape, _) in code.line.outputs.items()}
+        if not all(x.shape == shapes[name] and x.dtype == self.dtype for name, x in out.items()):
+            return None
+        return self._of_arrays(args, [out.get(name) for name in self._symbols])
+
+    def _general(self, args: Sequence[Any], out: Any) -> Any:
+        """Return the quantities as `__call__` does, whatever the arguments are."""
+        states = self._states(self._bound(args, {}))
         batch = self.batch(states)
         code = None if self.backend == "textbook" else self._code(tuple(states))
         if code is None:
@@ -228,9 +317,22 @@ class Program:
         unsure = np.ones(batch, bool)
         if code is not None:
             unsure = ~(code.results(states, batch, self.threads, rows)[ALARM].real <= 1)
+            self._remember(code, states, batch)
         if unsure.any():
             by_the_textbook(self.model, self.quantities, self.given | states, filled, unsure)
         return self.packed(finish(given, filled))
+
+    def _remember(self, code: BackEnd, states: Mapping[str, Array], batch: tuple[int, ...]) -> None:
+        """Remember what answers the next calls of this kind: see `results`."""
+        count = len(states)
+        if tuple(states) != self.arguments[:count]:
+            return
+        if batch == () and count not in self._alone:
+            self._alone[count] = code.one_state(self.single)
+        if self.threads == 1 and count not in self._functions:
+            self._functions[count] = code.array_function()
+        if len(batch) > 1 and not all(x.flags.c_contiguous for x in states.values()):
+            code.code(1)  # NumPy may take only a few of the states at a time
 
     def _bound(self, args: Sequence[ArrayLike | None], named: Mapping[str, ArrayLike | None]) -> dict[str, ArrayLike]:
         """Return the arguments by name."""

@@ -26,8 +26,8 @@ __all__ = [
     "MAX_DOF",
     "MAX_ENTRIES_OF_M",
     "cached_program",
-    "one_state",
     "program",
+    "remembered",
     "result",
     "states_of",
     "too_long",
@@ -63,28 +63,27 @@ def states_of(model: Model, named: Mapping[str, Any]) -> tuple[tuple[Any, ...], 
     return args, args[0].dtype
 
 
-def one_state(model: Model, want: Any, contacts: Any, args: Sequence[Any]) -> Any:
-    """Return what the program that is remembered for a question returns for one state; None where there is none.
+def remembered(model: Model, want: Any, contacts: Any, args: Sequence[Any], out: Any = None) -> Any:
+    """Return what the program that is remembered for a question returns, as `Program.results`; None if there is none.
 
     It looks at nothing that the program looks at itself: for one state each 0.1 µs counts.
     """
     try:
-        found = model._programs[want, args[0].dtype, contacts].one_state
+        results = model._programs[want, args[0].dtype, contacts].results
     except (AttributeError, KeyError, TypeError):  # none yet, or arguments of other kinds
         return None
-    return found and found(*args)
+    return results(args, out)
 
 
 def result(
     model: Model, symbol: str, names: tuple[str, ...], args: tuple[ArrayLike, ...], f_ext: ArrayLike | None, out: Any
 ) -> Array:
     """Return one quantity, which depends on these arguments, of one state or many."""
-    found: Array | None = None
-    if f_ext is None and out is None:
-        found = one_state(model, (symbol,), None, args)
+    if f_ext is not None:
+        names, args = (*names, "f_ext"), (*args, f_ext)
+    found: Array | None = remembered(model, (symbol,), None, args, out)
     if found is None:
-        named = dict(zip(names, args)) | ({} if f_ext is None else {"f_ext": f_ext})
-        states, dtype = states_of(model, named)
+        states, dtype = states_of(model, dict(zip(names, args)))
         found = program(model, (symbol,), dtype)(*states, out=out)
     return found
 
