@@ -382,7 +382,10 @@ def bundle(chains: int, links: int) -> tw.Model:
     ("chains", "links", "want", "reason"),
     [
         (1, 80, "M", None),
-        (1, 81, "h", "81 degrees of freedom in a chain, more than 80"),
+        (1, 81, "qdd", "81 degrees of freedom in a chain, more than 80"),
+        (1, 81, "dtau_dq", "81 degrees of freedom in a chain, more than 80"),
+        (1, 400, "h", None),
+        (1, 401, "h", "401 degrees of freedom in a chain, more than 400"),
         (25, 40, "h", None),
         (27, 38, "h", "1026 degrees of freedom, more than 1000"),
         (10, 60, "M", None),
@@ -391,6 +394,22 @@ def bundle(chains: int, links: int) -> tw.Model:
 )
 def test_what_is_too_long_is_decided_by_degrees_of_freedom_and_by_the_entries_of_m(chains, links, want, reason):
     assert programs.too_long(bundle(chains, links), [want]) == reason
+
+
+@pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
+@pytest.mark.parametrize("name", ["rnea", "nonlinear_effects", "centroidal_map"])
+def test_a_long_chain_has_machine_code_and_the_accuracy_of_the_textbook(name):
+    """Against the textbook in long double: the median error is at most half as large again, or a rounding of each."""
+    model = tw.chain(120)
+    q, v = np.random.default_rng(0).standard_normal((2, 12, 120))
+    exact = CALLS[name](tw, model, q.astype(np.longdouble), v.astype(np.longdouble))
+    axes = tuple(range(1, exact.ndim))
+    ours, book = (
+        np.median(np.abs(CALLS[name](package, model, q, v) - exact).max(axes) / np.abs(exact).max(axes))
+        for package in (fast, tw)
+    )
+    assert ours < max(1.5 * book, 4e-15)
+    assert {made.backend for made in model._programs.values()} == {"llvm"}
 
 
 def test_what_is_handed_to_the_textbook_is_in_the_log(long_chain, caplog):

@@ -8,14 +8,14 @@ complex numbers, NumPy does the same operations for many states at once.
 
 The textbook itself takes, some states at a time, what no program can be made for:
 
-- robots that are too long for a straight line, which the log of `twistwrench.fast.programs` records: with more than 80
-  degrees of freedom from the world to a body, or 1000 in all; and for M, with more than 20 000 entries on and below its
-  diagonal that are not always zero;
+- robots that are too long for a straight line, which the log of `twistwrench.fast.programs` records: with more than 400
+  degrees of freedom from the world to a body, or 1000 in all; for q̈, M and what else is heavy there, with more than 80
+  from the world to a body; and for M, with more than 20 000 entries on and below its diagonal that are not always zero;
 - models in which nothing outboard of a joint has inertia, and joints of a class of your own whose `transform` asks what
   its q is;
 - single states that are singular, or nearly: the pivots are watched, and the textbook solves them or names the joint.
 
-Of lines with more than 60 000 operations there is no machine code, since it would take long to make: NumPy does them.
+Of lines with more than 150 000 operations there is no machine code, since it would take long to make: NumPy does them.
 
 How fast all this is, is in benchmarks/README.md; more states than one machine holds are in docs/dask.md.
 

@@ -47,7 +47,7 @@ def compile_law(
     names = tuple(f"x{k}" for k in range(len(known)))
     shapes = {name: x.shape[1:] for name, x in zip(names, known)}
     try:
-        if too_long(model, ()):
+        if too_long(model, ("qdd",)):
             raise TypeError
         wants = [Quantity(f"y{k}", names, partial(one, k)) for k in wanted]
         line = record(model, wants, shapes, {}, DOUBLE).without(ALARM)
