@@ -1,8 +1,8 @@
 """The same quantities for a thousand states or a control loop: the textbook's functions as programs.
 
 Same functions, same signatures, same errors as the textbook's, and its recursions, recorded for this model, this
-question and this number type when first asked for, which takes some tenths of a second, and remembered with the model:
-see ``straightline``. Everything that is asked for in one call shares its work. With the extra
+question and this number type when first asked for, which takes some tenths of a second (or ahead, by `prepare`), and
+remembered with the model: see ``straightline``. Everything that is asked for in one call shares its work. With
 ``pip install "twistwrench[compile]"`` float32 and float64 have machine code; without it, and for long double and
 complex numbers, NumPy does the same operations for many states at once.
 
@@ -37,6 +37,7 @@ programs      the program for a model and a question, made once; where there is 
 functions     dynamics
 kinematics    frames, the centre of mass, energies
 steps         q ⊕ v_dt, q₁ ⊖ q₀, their derivatives, and the way between
+preparation   `prepare`: programs made ahead
 ============  ===================================================================================
 
 >>> import numpy as np
@@ -62,6 +63,7 @@ from .kinematics import (
     kinetic_energy,
     potential_energy,
 )
+from .preparation import prepare
 from .steps import d_difference, d_integrate, difference, integrate, interpolate
 
 __all__ = [
@@ -82,5 +84,6 @@ __all__ = [
     "kinetic_energy",
     "nonlinear_effects",
     "potential_energy",
+    "prepare",
     "rnea",
 ]
