@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from straightline import llvm, registers
+from straightline import extension, llvm, registers
 from twistwrench import fast
 from twistwrench.fast import programs, quantity
 
@@ -454,15 +454,15 @@ def calls_within(function):
 @pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
 @pytest.mark.parametrize("leading", [(), (1,), (3, 4)], ids=str)
 @pytest.mark.parametrize("pushed", [False, True], ids=["", "f_ext"])
-def test_from_a_function_to_its_machine_code_there_are_four_calls(leading, pushed):
+def test_from_a_function_to_its_machine_code_there_are_few_calls(leading, pushed):
     """A reader can follow them, and nothing is looked for a second time, whatever the leading axes are."""
     s = random_state(GO2, rng=0, batch=leading)
     f_ext = s.f_ext if pushed else None
     fast.rnea(GO2, s.q, s.v, s.a, f_ext)
-    way = calls_within(lambda: fast.rnea(GO2, s.q, s.v, s.a, f_ext))
-    assert [name for name in way if "." not in name] == ["rnea", "result", "remembered"]
-    assert way[3] == "Program.results"
-    assert way[4:] in ([], ["Program._of_arrays"])
+    way = ["rnea", "result", "remembered"]
+    if leading or not extension.POSSIBLE:
+        way += ["Program.results", "Program._of_arrays"]
+    assert calls_within(lambda: fast.rnea(GO2, s.q, s.v, s.a, f_ext)) == way
     out = np.empty((*leading, 18))
     assert "Program._general" not in calls_within(lambda: fast.rnea(GO2, s.q, s.v, s.a, f_ext, out=out))
 

@@ -181,7 +181,7 @@ def dynamics(
     ((5, 18, 18), (5, 18), (5, 12, 18), (5, 6, 18))
     """
     check_model(model)
-    names = in_order(want)
+    names = want if want is QUANTITIES else in_order(want)
     if contacts is None:
         contacts = model.feet
     elif type(contacts) is not tuple:

@@ -28,6 +28,8 @@ __all__ = ["Program", "Results"]
 
 NOTHING: Mapping[str, Array] = {}
 
+NONE_YET: Mapping[int, None] = dict.fromkeys(range(1 + len(ARGUMENTS)))  # by the number of arguments
+
 LARGE = 2**16
 """Bytes: smaller arrays of the caller are filled by a copy, quicker than to ask what they share memory with."""
 
@@ -88,6 +90,9 @@ class Program:
     ----------
     arguments : tuple of str
         The names of the program's arguments, in their order.
+    alone : dict
+        What answers for one state, once one was asked for, by the number of arguments: with f_ext, the last, there is
+        one more. See `straightline.extension`.
 
     Examples
     --------
@@ -117,26 +122,23 @@ class Program:
         self.arguments = tuple(name for name in ARGUMENTS if name in needed)
         self._plain = tuple(name for name in self.arguments if name != "f_ext")
         self._shapes = {name: shapes(model)[name] for name in self.arguments}
-        self._one = [self._shapes[name] for name in self._plain]
         self._symbols = [quantity.symbol for quantity in quantities]
         self._codes: dict[tuple[str, ...], BackEnd] = {}
-        self._alone: dict[
-            int, Callable[..., Any] | None
-        ] = {}  # by the number of arguments: f_ext, the last, may be there
+        self.alone: dict[int, Callable[..., Any] | None] = {**NONE_YET}
         self._functions: dict[int, ArrayFunction | None] = {}
 
     def run_by(self, backend: str) -> None:
         """Let another back end run the program, without recording it again."""
         self.backend = backend
-        self._alone.clear()
+        self.alone = {**NONE_YET}
         self._functions.clear()
         for code in self._codes.values():
             code.name = backend
 
     @property
     def one_state(self) -> Callable[..., Any] | None:
-        """What answers for one state without f_ext, once one was asked for: see `straightline.extension`."""
-        return self._alone.get(len(self._plain))
+        """What answers for one state without f_ext, once one was asked for."""
+        return self.alone[len(self._plain)]
 
     @property
     def operations(self) -> Counter[str]:
@@ -234,11 +236,9 @@ class Program:
         ordinary states, and an `out` that NumPy could fill as well. Nothing is looked at twice.
         """
         if out is None:
-            if alone := self._alone.get(len(args)):
-                found = alone(*args)
-                if found is not None:
-                    return found
-            return self._of_arrays(args)
+            alone = self.alone.get(len(args))
+            found = alone(*args) if alone else None
+            return self._of_arrays(args) if found is None else found
         if not self.single:
             return self._into(args, out)
         if type(out) is not np.ndarray or not out.flags.carray:
@@ -327,8 +327,8 @@ class Program:
         count = len(states)
         if tuple(states) != self.arguments[:count]:
             return
-        if batch == () and count not in self._alone:
-            self._alone[count] = code.one_state(self.single)
+        if batch == () and self.alone[count] is None:
+            self.alone[count] = code.one_state(self.single)
         if self.threads == 1 and count not in self._functions:
             self._functions[count] = code.array_function()
         if len(batch) > 1 and not all(x.flags.c_contiguous for x in states.values()):

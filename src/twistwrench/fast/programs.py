@@ -74,10 +74,12 @@ def remembered(model: Model, want: Any, contacts: Any, args: Sequence[Any], out:
     It looks at nothing that the program looks at itself: for one state each 0.1 µs counts.
     """
     try:
-        results = model._programs[want, args[0].dtype, contacts].results
+        program = model._programs[want, args[0].dtype, contacts]
+        alone = program.alone[len(args)] if out is None else None
     except (AttributeError, KeyError, TypeError):  # none yet, or arguments of other kinds
         return None
-    return results(args, out)
+    found = alone(*args) if alone else None
+    return program.results(args, out) if found is None else found
 
 
 def result(
