@@ -74,6 +74,8 @@ def finish(given: Mapping[str, Array], filled: Mapping[str, Array]) -> dict[str,
 
 def separate(arrays: Sequence[Array]) -> bool:
     """Return whether no two of these arrays may share memory, as far as is seen at once."""
+    if all(x.flags.owndata for x in arrays):
+        return len({*map(id, arrays)}) == len(arrays)
     return not any(np.may_share_memory(x, y) for x, y in combinations(arrays, 2))
 
 

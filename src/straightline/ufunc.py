@@ -43,7 +43,9 @@ class ArrayFunction:
         inputs, outputs = [*line.inputs.values()], [shape for shape, _ in line.outputs.values()]
         there = [shape for shape in outputs if 0 not in shape]
         count = len(inputs) + len(there)
-        self.dtype, self.tails = dtype, outputs
+        self.dtype = dtype
+        self.empty = {k: shape for k, shape in enumerate(outputs) if 0 in shape}
+        self.numbers = [k for k, shape in enumerate(outputs[:-1]) if not shape]
         addresses[2] = _functions()[CLEAR]
         self.engine = engine_of(Loop(dtype).written(width, inputs, outputs))
         signature = f"{_words(inputs)}->{_words(there)}".encode()
@@ -54,17 +56,22 @@ class ArrayFunction:
         at = [ctypes.addressof(x) for x in (loops, data, types)]
         made = make(*at, 1, len(inputs), len(there), -1, NAME, None, 0, signature)
         self.ufunc: Callable[..., Any] = partial(made, order="C")
-        usual = all(shape and 0 not in shape for shape in outputs[:-1])
-        self.call: Callable[..., Sequence[Array]] = self.ufunc if usual else self._completed
+        self.call: Callable[..., Sequence[Array]] = self._completed if self.empty or self.numbers else self.ufunc
 
     def _completed(self, *arrays: Array, out: Sequence[Array | None] = ()) -> list[Array]:
         """Return what `call` does where NumPy leaves out what is empty, and makes bare numbers of single ones."""
-        into = out or [None] * len(self.tails)
-        computed = iter(self.ufunc(*arrays, out=tuple(x for x, shape in zip(into, self.tails) if 0 not in shape)))
-        found = [next(computed) if 0 not in shape else x for x, shape in zip(into, self.tails)]
-        batch = np.asarray(found[-1]).shape
-        made = zip(found, self.tails)
-        return [np.empty(batch + shape, self.dtype) if x is None else np.asarray(x) for x, shape in made]
+        if out:
+            found = [*self.ufunc(*arrays, out=tuple(x for k, x in enumerate(out) if k not in self.empty))]
+        else:
+            found = [*self.ufunc(*arrays)]
+        batch = found[-1].shape
+        for k, shape in self.empty.items():
+            own = out[k] if out else None
+            found.insert(k, np.empty(batch + shape, self.dtype) if own is None else own)
+        if not batch:
+            for k in self.numbers:
+                found[k] = np.asarray(found[k])
+        return found
 
 
 Pointer = ctypes.c_void_p * 1

@@ -235,38 +235,44 @@ class Program:
         Here is what a control loop calls: arrays of the program's number type with any leading axes and strides, in
         ordinary states, and an `out` that NumPy could fill as well. Nothing is looked at twice.
         """
+        alone = self.alone.get(len(args))
+        found = alone(*args) if alone else None
         if out is None:
-            alone = self.alone.get(len(args))
-            found = alone(*args) if alone else None
             return self._of_arrays(args) if found is None else found
         if not self.single:
-            return self._into(args, out)
-        if type(out) is not np.ndarray or not out.flags.carray:
-            return None
-        if out.nbytes > LARGE:
-            return self._written(args, {self._symbols[0]: out})
-        found = self.results(args)
-        if found is None or out.shape != found.shape or out.dtype != found.dtype:
+            return self._into(args, out, found)
+        if found is None or type(out) is not np.ndarray or out.shape != found.shape or not out.flags.carray:
+            return self._into(args, {self._symbols[0]: out}, found)
+        if out.dtype != found.dtype:
             return None
         out[...] = found
         return out
 
-    def _into(self, args: Sequence[Any], out: Mapping[str, Array]) -> Any:
-        """Return a tuple of all results as `results` does, of which some are written to arrays of the caller."""
-        given = [*out.values()] if isinstance(out, Mapping) else [None]
-        if not all(type(x) is np.ndarray and x.flags.carray for x in given) or not separate(given):
+    def _into(self, args: Sequence[Any], out: Any, found: Any) -> Any:
+        """Return the results as `results` does, of which some, by their symbols, are written to arrays of the caller.
+
+        What was found already are those of one state.
+        """
+        if type(out) is not dict:
             return None
-        if sum(x.nbytes for x in given) > LARGE:
-            return self._written(args, out)
-        found = self.results(args)
         if found is None:
-            return None
-        by_symbol = dict(zip(self._symbols, found))
-        if not all(x.shape == by_symbol[name].shape and x.dtype == self.dtype for name, x in out.items()):
+            if sum(getattr(x, "nbytes", 0) for x in out.values()) > LARGE:
+                return self._filled(args, out)
+            found = self._of_arrays(args)
+            if found is None:
+                return None
+        by_symbol = {self._symbols[0]: found} if self.single else dict(zip(self._symbols, found))
+        for name, x in out.items():
+            if type(x) is not np.ndarray or x.shape != by_symbol[name].shape or x.dtype != self.dtype:
+                return None
+            if not x.flags.carray:
+                return None
+        if len(out) > 1 and not separate([*out.values()]):
             return None
         for name, x in out.items():
             x[...] = by_symbol[name]
-        return tuple((by_symbol | dict(out)).values())
+        by_symbol.update(out)
+        return x if self.single else tuple(by_symbol.values())
 
     def _of_arrays(self, args: Sequence[Any], out: Sequence[Array | None] | None = None) -> Any:
         """Return the results as `results` does, or None; `out` is known to fit."""
@@ -286,11 +292,13 @@ class Program:
             return None
         return found[0] if self.single else found[:-1]
 
-    def _written(self, args: Sequence[Any], out: Mapping[str, Array]) -> Any:
-        """Return the results as `results` does, written where they are wanted: in arrays that share nothing."""
+    def _filled(self, args: Sequence[Any], out: Mapping[str, Array]) -> Any:
+        """Return the results as `results` does, computed where they are wanted: in arrays that share nothing."""
         names = self.arguments[: len(args)]
-        code = self._codes.get(names)
-        if code is None or not all(type(x) is np.ndarray and separate([x, *out.values()]) for x in args):
+        code, arrays = self._codes.get(names), [*out.values()]
+        if code is None or not all(type(x) is np.ndarray for x in (*args, *arrays)):
+            return None
+        if not all(x.flags.carray for x in arrays) or not all(separate([x, *arrays]) for x in args):
             return None
         try:
             batch = np.broadcast_shapes(*(x.shape[: x.ndim - len(self._shapes[name])] for name, x in zip(names, args)))
