@@ -61,9 +61,10 @@ class ArrayFunction:
     def _completed(self, *arrays: Array, out: Sequence[Array | None] = ()) -> list[Array]:
         """Return what `call` does where NumPy leaves out what is empty, and makes bare numbers of single ones."""
         if out:
-            found = [*self.ufunc(*arrays, out=tuple(x for k, x in enumerate(out) if k not in self.empty))]
+            made = self.ufunc(*arrays, out=tuple(x for k, x in enumerate(out) if k not in self.empty))
         else:
-            found = [*self.ufunc(*arrays)]
+            made = self.ufunc(*arrays)
+        found = [*made] if type(made) is tuple else [made]  # the alarm alone
         batch = found[-1].shape
         for k, shape in self.empty.items():
             own = out[k] if out else None

@@ -150,6 +150,19 @@ def test_lines_that_numpy_has_no_function_for_have_none():
     assert BackEnd(many, np.dtype(float), "llvm").array_function() is None
 
 
+@pytest.mark.parametrize("leading", [(), (5,), (0,)], ids=str)
+def test_where_all_results_are_empty_there_is_the_alarm(leading):
+    line = straight_line(lambda x: (x[:0], np.multiply.outer(x[:0], x), x[0] / 2), x=(2,))
+    x = np.full((*leading, 2), 3.0)
+    function = made(line=line)[1]
+    none, rows, alarm = function.call(x)
+    assert (none.shape, rows.shape) == ((*leading, 0), (*leading, 0, 2))
+    assert np.shape(alarm) == leading
+    assert (alarm == 1.5).all()
+    given = np.empty((*leading, 0))
+    assert function.call(x, out=(given, None, None))[0] is given
+
+
 def test_threads_can_call_it_at_the_same_time():
     from concurrent.futures import ThreadPoolExecutor
 
