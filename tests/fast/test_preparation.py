@@ -66,7 +66,7 @@ def test_only_what_is_asked_for_is_made(loop):
 
 def test_it_takes_every_function_of_its_room():
     """With what each needs besides; also without machine code."""
-    model, options = robot(), {"frame": "left", "fraction": 0.5, "t": 0.5, "s": 0.5}
+    model, options = robot(), {"frame": "left", "u": 0.5}
     names = [name for name in fast.__all__ if name != "prepare"]
     for name in names:
         taken = fast.preparation.signature(getattr(fast, name)).parameters

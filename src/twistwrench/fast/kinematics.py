@@ -11,7 +11,7 @@ from ..algorithms.kinematics import Reference
 from ..arrays import Array
 from ..model import Model, check_model
 from ..spatial import SE3
-from .programs import cached_program, one_state, result, states_of
+from .programs import cached_program, remembered, result, states_of
 from .quantity import Quantity
 
 __all__ = [
@@ -49,7 +49,7 @@ def frame_placement(model: Model, q: ArrayLike, frame: str) -> SE3:
     >>> tw.fast.frame_placement(model, model.standing(), "FR_foot").translation.round(3) + 0.0
     array([ 0.193, -0.142,  0.   ])
     """
-    found = one_state(model, ("R", "p"), frame, (q,))
+    found = remembered(model, ("R", "p"), frame, (q,))
     if found is None:
         R = Quantity("R", ("q",), lambda q: (textbook.frame_placement(model, q, frame).rotation, []))
         p = Quantity("p", ("q",), lambda q: (textbook.frame_placement(model, q, frame).translation, []))
@@ -87,7 +87,7 @@ def frame_jacobian(
     >>> tw.fast.frame_jacobian(arm, arm.neutral(), "tool", "world").shape
     (6, 3)
     """
-    found = one_state(model, ("J",), (frame, reference), (q,)) if out is None else None
+    found = remembered(model, ("J",), (frame, reference), (q,), out)
     if found is None:
         J = Quantity("J", ("q",), lambda q: (textbook.frame_jacobian(model, q, frame, reference), []))
         found = _of_frame(model, [J], (frame, reference), {"q": q}, out)
@@ -123,7 +123,7 @@ def frame_bias_acceleration(
     >>> tw.fast.frame_bias_acceleration(pendulum, [0.0], [2.0], "bob", "local_world_aligned")[3:].round(12)
     array([0., 0., 4.])
     """
-    found = one_state(model, ("dJ_v",), (frame, reference), (q, v)) if out is None else None
+    found = remembered(model, ("dJ_v",), (frame, reference), (q, v), out)
     if found is None:
 
         def bias(q: Array, v: Array) -> tuple[Array, list[Any]]:

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array
 from ..model import Model, check_model
 from .program import Program
-from .programs import cached_program, one_state, states_of
+from .programs import cached_program, remembered, states_of
 from .quantity import Quantity
 
 __all__ = ["d_difference", "d_integrate", "difference", "integrate", "interpolate"]
@@ -206,9 +206,9 @@ def _result(
     model: Model, want: tuple[str, ...], names: tuple[str, ...], args: Sequence[ArrayLike], out: Array | None = None
 ) -> Any:
     """Return one result, or a tuple of several."""
-    found = one_state(model, want, None, args) if out is None else None
+    found = remembered(model, want, None, args, out)
     if found is not None:
-        return found
+        return found if len(want) == 1 else tuple(found)
     check_model(model)
     states, dtype = states_of(model, dict(zip(names, args)))
 
