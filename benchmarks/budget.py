@@ -11,9 +11,9 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
-from tables import fill, table
-
-from twistwrench.cli import main as twistwrench
+from study.__main__ import main as study
+from study.record import Record
+from tables import table, write
 
 HERE = Path(__file__).parent
 DOCS = HERE.parent / "docs"
@@ -24,6 +24,12 @@ MOTIONS = {"go2": "trot", "talos_reduced": "walk"}
 def results(robot: str) -> Path:
     """Return the file of results of a robot."""
     return HERE / "results" / f"budget_{robot}.json"
+
+
+def records(robot: str) -> list[Record]:
+    """Return what was measured of a robot."""
+    found = json.loads(results(robot).read_text(encoding="utf-8"))["records"]
+    return [Record.from_dict(record) for record in found]
 
 
 def amount(x: float) -> str:
@@ -38,9 +44,9 @@ def tables() -> dict[str, str]:
 
 def _cells() -> Iterator[tuple[str, str, str]]:
     for robot, motion in MOTIONS.items():
-        for source in json.loads(results(robot).read_text(encoding="utf-8"))["sources"]:
-            yield source["name"], f"{robot}, {motion}: N m", amount(source["torque"])
-            yield source["name"], f"{robot}: mm", amount(source["pressure"])
+        columns = {"torque": f"{robot}, {motion}: N m", "pressure": f"{robot}: mm"}
+        for record in records(robot):
+            yield record.way, columns[record.quantity], amount(record.error)
 
 
 def main() -> None:
@@ -50,9 +56,8 @@ def main() -> None:
     if not parser.parse_args().tables:
         for robot, motion in MOTIONS.items():
             picture = ["--plot", str(DOCS / "pictures" / "budget.png")] if robot == "go2" else []
-            twistwrench(["study", "budget", robot, "--motion", motion, "--json", str(results(robot)), *picture])
-    for page in PAGES:
-        page.write_text(fill(page.read_text(encoding="utf-8"), tables()), encoding="utf-8")
+            study(["budget", robot, "--motion", motion, "--json", str(results(robot)), *picture])
+    write(PAGES, tables())
 
 
 if __name__ == "__main__":

@@ -27,7 +27,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from speed import environment
-from study.cases import States, pinocchio, random_states
+from study.speed import States, random_states
+from study.speed import theirs as pinocchio
 
 import twistwrench as tw
 from twistwrench.timing import round_robin

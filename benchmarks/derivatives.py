@@ -1,79 +1,64 @@
-"""Derivatives and regressor: a compiled program beside Pinocchio, one thread, interleaved in one process.
+"""Derivatives and regressor: a compiled program beside Pinocchio called state by state, in turns, one thread.
 
-Run ``python benchmarks/derivatives.py go2 talos_reduced``: a row for each robot and question, times in microseconds.
+python benchmarks/derivatives.py go2 talos_reduced    # some minutes; prints a row for each robot and question
 """
 
+from __future__ import annotations
+
+# isort: off
+import one_thread  # noqa: F401 - before NumPy
+
+# isort: on
 import sys
 import time
+from collections.abc import Iterator
+from typing import Any
 
-import numpy as np
-import pinocchio as pin
+from study.record import Record, table, time_in_turns
+from study.speed import random_states
 
 import twistwrench as tw
-from twistwrench import compile
+from twistwrench.validate.oracle import Oracle
 
-STATES, ROUNDS = 1000, 15
-INVERSE, FORWARD, REGRESSOR = ("dtau_dq", "dtau_dv", "M"), ("qdd", "dqdd_dq", "dqdd_dv", "dqdd_dtau"), "Y"
-
-
-def measured(calls):
-    """Return the times of some calls in seconds, shape (rounds, calls), one after the other in each round."""
-    rounds = np.empty((ROUNDS, len(calls)))
-    for times in rounds:
-        for k, call in enumerate(calls):
-            start = time.perf_counter()
-            call()
-            times[k] = time.perf_counter() - start
-    return rounds
+STATES = 1000
+WANTED: dict[str | tuple[str, ...], str] = {
+    ("dtau_dq", "dtau_dv", "M"): "computeRNEADerivatives",
+    ("qdd", "dqdd_dq", "dqdd_dv", "dqdd_dtau"): "computeABADerivatives",
+    "Y": "computeJointTorqueRegressor",
+}
+"""By what is compiled: the function of Pinocchio."""
 
 
-def row(model, want, args, theirs):
-    """Print operations, seconds until the first results by machine code and by NumPy, and times beside Pinocchio's."""
-    one, seconds = [x[0].copy() for x in args], []
-    for backend in ("numpy", "llvm"):
-        start = time.process_time()
-        program = compile(model, want, backend=backend)
-        program(*one)
-        program(*args)
-        seconds.append(f"{time.process_time() - start:.1f} s")
+def rows(robot: str) -> Iterator[dict[str, Any]]:
+    """Yield operations, seconds until the first results by NumPy and by machine code, and times beside Pinocchio's."""
+    model = tw.load(robot)
+    oracle, s = Oracle(model, None), random_states(model, STATES)
+    theirs = list(zip(s.q, oracle.tangent(s.v), oracle.tangent(s.a), strict=True))
+    for want, name in WANTED.items():
+        row: dict[str, Any] = {"robot": robot, "quantities": want if isinstance(want, str) else ", ".join(want)}
+        for backend in ("numpy", "llvm"):
+            start = time.process_time()
+            program = tw.compile(model, want, backend=backend)
+            program(*s.first(1))
+            row[f"first call, {backend}"] = f"{time.process_time() - start:.1f} s"
+        function, one = getattr(oracle.pin, name), s.first(1)
 
-    def state_by_state():
-        for _ in range(STATES // 4):
-            program(*one)
+        def state_by_state(function: Any = function) -> None:
+            for state in theirs:
+                function(oracle.model, oracle.data, *state)
 
-    times = measured([lambda: program(*args), state_by_state, lambda: [theirs(k) for k in range(STATES // 4)]])
-    batch, single, pinocchio = (times / STATES * [1, 4, 4]).T
-    ratios = [np.median(x / pinocchio) for x in (batch, single)]
-    micro = [1e6 * x.min() for x in (batch, single, pinocchio)]
-    name = want if isinstance(want, str) else ", ".join(want)
-    cells = [model.name, name, program.operations.total(), *seconds, *(f"{x:.3g}" for x in (*micro, *ratios))]
-    print("|", " | ".join(map(str, cells)), "|", flush=True)
-
-
-def compared(name):
-    """Print the rows of a robot."""
-    model, rng = tw.load(name), np.random.default_rng(0)
-    there = tw.bridge.to_pinocchio_model(model)
-    data = there.createData()
-    q = np.stack([model.random_configuration(rng=rng) for _ in range(STATES)])
-    v, a, tau = rng.standard_normal((3, STATES, model.nv))
-    V, A, T = (tw.bridge.to_pinocchio_tangent(model, x) for x in (v, a, tau))
-    row(model, INVERSE, (q, v, a), lambda k: pin.computeRNEADerivatives(there, data, q[k], V[k], A[k]))
-    row(model, FORWARD, (q, v, tau), lambda k: pin.computeABADerivatives(there, data, q[k], V[k], T[k]))
-    row(model, REGRESSOR, (q, v, a), lambda k: pin.computeJointTorqueRegressor(there, data, q[k], V[k], A[k]))
+        batch, single, reference = time_in_turns(
+            [
+                (Record("", "program", states=STATES), lambda program=program: program(*s)),
+                (Record("", "program"), lambda program=program, one=one: program(*one)),
+                (Record("", "Pinocchio", states=STATES), state_by_state),
+            ]
+        )
+        row |= {"operations": program.operations.total(), f"{STATES} states": batch.time, "one state": single.time}
+        row |= {"Pinocchio": reference.time, "ratio": batch.seconds / reference.seconds}
+        yield row | {"of one": single.seconds / reference.seconds}
 
 
 if __name__ == "__main__":
-    columns = [
-        "robot",
-        "quantities",
-        "operations",
-        "first call, NumPy",
-        "machine code",
-        "1000 states",
-        "one",
-        "Pinocchio",
-    ]
-    print("|", " | ".join([*columns, "ratio", "ratio of one"]), "|")
-    for name in sys.argv[1:] or ["go2"]:
-        compared(name)
+    found = [row for robot in sys.argv[1:] or ["go2"] for row in rows(robot)]
+    print(table(found, dict.fromkeys(found[0]), ratio=".2f", **{"of one": ".2f"}))

@@ -5,8 +5,8 @@ python benchmarks/extremes.py --tables   # only make the tables anew from result
 
 The tables of the whole grid, of programs and of bounds are made from what these commands write:
 
-python -m benchmarks.study extremes --full --longest 300 --angles 0 \
-    --json benchmarks/results/extremes_grid.json  # an hour
+python -m benchmarks.study extremes --full --angles 0 \
+    --json benchmarks/results/extremes_grid.json  # a quarter of an hour
 python -m benchmarks.study extremes --programs --json benchmarks/results/extremes_programs.json  # ten minutes
 python -m benchmarks.study extremes --bounds --json benchmarks/results/bounds.json  # half an hour
 """
@@ -24,11 +24,12 @@ from typing import Any
 
 import mpmath
 import numpy as np
-from study.extremes.cell import measure
+from study.extremes.cells import measure
 from study.extremes.robots import Recipe
-from study.extremes.rotations import rotations
 from study.extremes.truth import truth
-from tables import fill, table
+from study.record import Record
+from study.turns import turns
+from tables import table, write
 
 import twistwrench as tw
 from twistwrench import bridge
@@ -115,9 +116,9 @@ def measured() -> dict[str, Any]:
     found: dict[str, Any] = {"cells": {}}
     for name, recipe in CELLS.items():
         errors: dict[str, dict[str, float]] = {}
-        for outcome in measure(recipe, pinocchio=True):
-            if outcome.error is not None:
-                errors.setdefault(outcome.algorithm, {})[outcome.who] = outcome.error
+        for record in measure(recipe, with_pinocchio=True):
+            if record.error is not None:
+                errors.setdefault(record.quantity, {})[record.way] = record.error
         found["cells"][name] = errors
     found["plain"] = {
         "aba, not symmetric": without_care(CELLS["heavy tip, 20 bodies"], "aba", "symmetric"),
@@ -135,7 +136,7 @@ def measured() -> dict[str, Any]:
         "go2": cost(go2, go2.standing(), 40),
         "chain of 1000": cost(chain, np.full(1000, 0.3), 3),
     }
-    found["exp and log"] = [turn._asdict() for turn in rotations()]
+    found["exp and log"] = [record.as_dict() for record in turns()]
     return found
 
 
@@ -171,7 +172,7 @@ def _of_the_grid() -> Iterator[str]:
     grid = json.loads(GRID.read_text(encoding="utf-8"))
     yield f"{grid['cells']}"
     for who in ("textbook", "fast"):
-        above = {way["algorithm"]: way["above"] for way in grid["ways"] if way["who"] == who}
+        above = {way["quantity"]: way["above"] for way in grid["ways"] if way["way"] == who}
         dynamics = sum(count for name, count in above.items() if name.startswith(("aba", "crba +")))
         yield f"{sum(above.values())}"
         yield f"{sum(above.values()) - dynamics}"
@@ -193,7 +194,7 @@ def _of_bounds() -> Iterator[str]:
 COUNTED = {
     "answers asked for": "cells",
     "raised an error": "raised",
-    "a NaN, an infinity, a warning, a number where none is right": "bad",
+    "a NaN, an infinity, a warning, a number where none is right": "faults",
     "error above 2 × Pinocchio's + 4 ε": "above",
     "Pinocchio's above 2 × this + 4 ε": "below",
     "less than a tenth of Pinocchio's": "tenth",
@@ -203,12 +204,12 @@ COUNTED = {
 def _grid(ways: list[dict[str, Any]]) -> Iterator[tuple[str, str, str]]:
     for line, name in COUNTED.items():
         for column, who in (("textbook", "textbook"), ("`tw.fast`", "fast")):
-            yield line, column, str(sum(way[name] for way in ways if way["who"] == who))
+            yield line, column, str(sum(way[name] for way in ways if way["way"] == who))
 
 
 def _programs(counts: list[dict[str, Any]]) -> Iterator[tuple[str, str, str]]:
     for count in counts:
-        line = f"`{count['algorithm']}`" if count["algorithm"] in ("rnea", "crba") else count["algorithm"]
+        line = f"`{count['quantity']}`" if count["quantity"] in ("rnea", "crba") else count["quantity"]
         yield line, "states", f"{count['states']}"
         for column, name in (("above 2 ×", "above"), ("below ½ ×", "below")):
             yield line, column, f"{100 * count[name]:.1f} %"
@@ -227,10 +228,9 @@ def _base(cells: dict[str, Any]) -> Iterator[tuple[str, str, str]]:
                 yield line, f"{who}, {speed} m/s", "" if error is None else f"{error:.1e}"
 
 
-def _turns(turns: list[dict[str, Any]]) -> Iterator[tuple[str, str, str]]:
-    for turn in turns:
-        for name, at in (("0", "near_zero"), ("π", "near_pi")):
-            yield f"`{turn['function']}`", f"{turn['library']}, {name}", f"{turn[at]:.1e}"
+def _turns(found: list[dict[str, Any]]) -> Iterator[tuple[str, str, str]]:
+    for record in map(Record.from_dict, found):
+        yield f"`{record.quantity}`", f"{record.way}, {record.where.removeprefix('near ')}", f"{record.error:.1e}"
 
 
 def main() -> None:
@@ -241,8 +241,7 @@ def main() -> None:
         with mpmath.workdps(50):
             text = json.dumps(measured(), indent=1, ensure_ascii=False, allow_nan=False)
         RESULTS.write_text(text + "\n", encoding="utf-8")
-    for page in PAGES:
-        page.write_text(fill(page.read_text(encoding="utf-8"), tables()), encoding="utf-8")
+    write(PAGES, tables())
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from study.cases import States
+from study.speed import States
 
 import twistwrench as tw
 

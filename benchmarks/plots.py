@@ -12,7 +12,7 @@ import matplotlib as mpl
 mpl.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
-from study.cases import QUANTITIES
+from study.speed import QUANTITIES
 from tables import RANGES, Row, growth, rows
 
 RESULTS = Path(__file__).parent / "results"

@@ -24,8 +24,8 @@ from unittest.mock import patch
 
 import numpy as np
 from speed import environment
-from study.cases import random_states
-from tables import fill, table
+from study.speed import random_states
+from tables import table, write
 
 import twistwrench as tw
 from straightline.line import LEAVES, Line
@@ -273,8 +273,7 @@ def main() -> None:
         times = {(row["robot"], row["scene"], row["want"]): row["us"] for row in known.get("scenes", ())}
         found = {**known, "chains": chains(), "rules": rules(), "scenes": over_scenes(times)}
         RESULTS.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    for page in PAGES:
-        page.write_text(fill(page.read_text(encoding="utf-8"), tables()), encoding="utf-8")
+    write(PAGES, tables())
 
 
 if __name__ == "__main__":

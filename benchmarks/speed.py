@@ -1,7 +1,6 @@
 """How fast is `tw.fast`? Everything against Pinocchio called state by state from Python, in one process, in turns.
 
 python benchmarks/speed.py                # all of it, ten minutes; writes to benchmarks/results
-python benchmarks/speed.py --short        # batches of 1000 and one state, a minute; writes nothing
 python benchmarks/speed.py --only links   # one of: one, batch, links, peers
 """
 
@@ -23,7 +22,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-from study.cases import QUANTITIES, ours, pinocchio, random_states
+from study.speed import QUANTITIES, ours, random_states
+from study.speed import theirs as pinocchio
 from tables import rows
 
 import twistwrench as tw
@@ -50,14 +50,14 @@ def one(rounds: int) -> Iterator[Row]:
             yield row("one", way, quantity, result, robot=model.name, dtype="float64", batch=1)
 
 
-def batch(rounds: int, batches=BATCHES) -> Iterator[Row]:
+def batch(rounds: int) -> Iterator[Row]:
     """Many states in one call."""
     model = tw.load("go2")
-    s = random_states(model, max(batches))
+    s = random_states(model, max(BATCHES))
     for dtype in (np.float64, np.float32):
         for quantity in QUANTITIES:
             reference = pinocchio(model, quantity, s.first(REFERENCE)), REFERENCE
-            for n in batches:
+            for n in BATCHES:
                 call = ours(tw.fast, model, quantity, s.first(n, dtype)), n
                 result = race(call, reference, rounds=rounds if n < 100_000 else 3)
                 yield row("batch", "fast", quantity, result, robot=model.name, dtype=np.dtype(dtype).name, batch=n)
@@ -138,25 +138,12 @@ def today() -> str:
 
 
 STUDIES = {"one": one, "batch": batch, "links": links, "peers": peers}
-COLUMNS = (
-    *("study", "way", "quantity", "robot", "dtype", "batch", "links", "us", "us_q1", "us_q3"),
-    *(
-        "reference_us",
-        "reference_us_q1",
-        "reference_us_q3",
-        "ratio",
-        "ratio_q1",
-        "ratio_q3",
-        "rounds",
-        "disturbed",
-        "date",
-    ),
-)
 
 
 def environment(command: str) -> dict[str, object]:
     """Return on what this ran."""
-    packages = ("twistwrench", "numpy", "pin", "mujoco", "adam-robotics", "casadi", "frax", "jax")
+    packages = ("twistwrench", "numpy", "pin", "mpmath", "gmpy2", "scipy")
+    packages += ("mujoco", "adam-robotics", "casadi", "frax", "jax")
     found = {}
     for name in packages:
         try:
@@ -184,14 +171,9 @@ def _cpuinfo() -> list[str]:
 def main() -> None:
     """Run what is asked for; write the rows of a study over those of its last run."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--short", action="store_true", help="one state and batches of 1000; write nothing")
     parser.add_argument("--only", choices=list(STUDIES), action="append", help="this study; may be repeated")
     parser.add_argument("--rounds", type=int, default=9, help="of each comparison (9)")
     args = parser.parse_args()
-    if args.short:
-        for _ in (*one(args.rounds), *batch(args.rounds, (1000,))):
-            pass
-        return
     RESULTS.mkdir(exist_ok=True)
     command = " ".join(["python", "benchmarks/speed.py", *sys.argv[1:]])
     for name in args.only or STUDIES:
@@ -202,7 +184,7 @@ def main() -> None:
         if name == "peers":
             found = [*kept(found), *found]
         with (RESULTS / f"{name}.csv").open("w", newline="") as file:
-            writer = csv.DictWriter(file, COLUMNS)
+            writer = csv.DictWriter(file, list(found[-1]))
             writer.writeheader()
             writer.writerows({k: f"{v:.5g}" if isinstance(v, float) else v for k, v in r.items()} for r in found)
         (RESULTS / f"{name}.json").write_text(json.dumps(environment(command), indent=2) + "\n")

@@ -201,6 +201,11 @@ def fill(page: str, made: Mapping[str, str]) -> str:
     return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", lambda found: f"{found[1]}{speak(made[found[2]])}\n", page)
 
 
+def write(pages: Iterable[Path], made: Mapping[str, str]) -> None:
+    """Write pages with their tables made anew."""
+    for page in pages:
+        page.write_text(fill(page.read_text(encoding="utf-8"), made), encoding="utf-8")
+
+
 if __name__ == "__main__":
-    for page in PAGES:
-        page.write_text(fill(page.read_text(encoding="utf-8"), tables()), encoding="utf-8")
+    write(PAGES, tables())

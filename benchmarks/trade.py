@@ -1,7 +1,7 @@
 """What docs/trade.md shows: two runs of ``python -m benchmarks.study trade``, their pictures, and its tables.
 
 python benchmarks/trade.py            # run both studies, ten minutes; writes to results/ and docs/pictures/
-python benchmarks/trade.py --tables   # only make the tables anew from results/
+python benchmarks/trade.py --tables   # only make the tables and two pictures anew from results/
 """
 
 from __future__ import annotations
@@ -12,15 +12,18 @@ import one_thread  # noqa: F401 - before NumPy
 # isort: on
 import argparse
 import json
+import sys
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from speed import environment
-from study.trade import Point, weigh
-from study.trade.choice import TARGETS, best
-from study.trade.picture import draw
-from tables import fill, table
+from study.derivatives import central_difference, complex_step, forward_difference
+from study.pictures import draw_trade, save
+from study.record import Record
+from study.trade import Effort, Trade, weigh
+from tables import table, write
 
 import twistwrench as tw
 from twistwrench.advice import USES, Advice, advise
@@ -33,12 +36,20 @@ DOCS = HERE.parent / "docs"
 PAGES = (DOCS / "trade.md", DOCS / "trade.zh-CN.md")
 ROBOTS = ("go2", "humanoid")
 USES_RESULTS = HERE / "results" / "uses.json"
+TARGETS = (1e-6, 1e-12, 1e-16)
+"""Errors that a user may want to stay below."""
 
 
-def points(robot: str) -> list[Point]:
-    """Return the points of a run."""
+def read(robot: str) -> Trade:
+    """Return what was measured in a run."""
     found = json.loads((HERE / "results" / f"trade_{robot}.json").read_text(encoding="utf-8"))
-    return [Point(**point) for point in found["points"]]
+    records = [Record.from_dict(record) for record in found["records"]]
+    return Trade(robot, found["description"], Effort(**found["effort"]), found["names"], records)
+
+
+def points(robot: str) -> list[Record]:
+    """Return the records of a run that have an error."""
+    return [record for record in read(robot).records if record.error is not None]
 
 
 def tables() -> dict[str, str]:
@@ -69,30 +80,27 @@ def _use(row: Advice) -> Iterator[tuple[str, str, str]]:
         yield f"`{row.use}`", column, cell
 
 
-def _answers(some: list[Point]) -> Iterator[tuple[str, str, str]]:
+def _answers(some: list[Record]) -> Iterator[tuple[str, str, str]]:
     """Yield for each quantity and each error the fastest way that stays below."""
     for key in dict.fromkeys(p.quantity for p in some):
         for target in TARGETS:
-            found = best([p for p in some if p.quantity == key], target)
-            cell = f"`{found.way}`, {found.number}, {_time(found)}" if found else "–"
+            enough = [p for p in some if p.quantity == key and p.error <= target]
+            found = min(enough, key=lambda p: p.seconds, default=None)
+            cell = f"`{found.way}`, {found.number}, {found.time}" if found else "–"
             yield f"`{key}`", f"{target:.0e}".replace("e-0", "e-"), cell
 
 
-def _cells(some: list[Point], key: str) -> Iterator[tuple[str, str, str]]:
+def _cells(some: list[Record], key: str) -> Iterator[tuple[str, str, str]]:
     """Yield time and error of each way of a quantity, a line for one state and another for many."""
     for p in some:
         if p.quantity == key:
-            yield f"`{p.way}`, {p.states}", p.number, f"{_time(p)}, {number(p.error)}"
-
-
-def _time(p: Point) -> str:
-    return "~" * (not p.quiet) + duration(p.seconds)
+            yield f"`{p.way}`, {p.states}", p.number, f"{p.time}, {number(p.error)}"
 
 
 def _with_machine(text: str) -> str:
     """Return JSON with a first line on the machine."""
     machine = json.dumps(environment("python benchmarks/trade.py"), ensure_ascii=False)
-    return text.replace("{", f'{{\n  "machine": {machine},', 1) + "\n"
+    return text.replace("{", f'{{\n  "machine": {machine},', 1)
 
 
 def draw_steps(path: Path) -> None:
@@ -101,42 +109,32 @@ def draw_steps(path: Path) -> None:
 
     model = tw.load("go2")
     rng = np.random.default_rng(0)
-    q, unit = model.random_configuration(rng=rng), np.eye(model.nv)
+    q = model.random_configuration(rng=rng)
     v, a = rng.standard_normal((2, model.nv))
-
-    def tau(q: np.ndarray) -> np.ndarray:
-        return tw.fast.rnea(model, q, v, a)
-
-    longer = model.normalize(q.astype(np.longdouble))
-    exact = tau(model.integrate(longer, 1e-100j * unit.astype(np.longdouble))).imag / 1e-100
-
-    def forward(h: float) -> np.ndarray:
-        return (tau(model.integrate(q, h * unit)) - tau(q)) / h
-
-    def central(h: float) -> np.ndarray:
-        return (tau(model.integrate(q, h * unit)) - tau(model.integrate(q, -h * unit))) / (2 * h)
-
-    def imaginary(h: float) -> np.ndarray:
-        return tau(model.integrate(q, 1j * h * unit)).imag / h
-
-    ways = {"forward difference": (forward, "v", "sky"), "central difference": (central, "^", "orange")}
-    ways["complex step"] = (imaginary, "o", "vermilion")
+    longer = model.normalize(q.astype(np.longdouble)), *(x.astype(np.longdouble) for x in (v, a))
+    tau = partial(tw.fast.rnea, model)
+    exact = complex_step(tau, model, *longer, h=1e-100)
+    ways = {
+        "forward difference": (forward_difference, "v", "sky"),
+        "central difference": (central_difference, "^", "orange"),
+    }
+    ways["complex step"] = (complex_step, "o", "vermilion")
     ax = (figure := Figure(figsize=(7, 4), layout="constrained")).add_subplot()
     for name, (way, marker, colour) in ways.items():
-        largest = 4 if way is imaginary else 1  # what leaves the rotations by more is refused
+        largest = 4 if way is complex_step else 1  # what leaves the rotations by more is refused
         steps = 10.0 ** -np.arange(largest, 18, 0.25)
-        errors = [np.abs(way(h) - exact).max() / np.abs(exact).max() for h in steps]
+        errors = [np.abs(way(tau, model, q, v, a, h) - exact).max() / np.abs(exact).max() for h in steps]
         ax.loglog(steps, errors, marker + "-", color=COLOURS[colour], markersize=4, label=name)
     ax.set(xlabel="step h", ylabel="relative error of ∂τ/∂q", title="go2, float64: what a step costs", xlim=(1, 1e-18))
     ax.grid(alpha=0.3)
     ax.legend()
-    figure.savefig(path, dpi=100)
+    save(figure, path)
 
 
 def main() -> None:
     """Run what is asked for."""
     parser = argparse.ArgumentParser(description="Make the numbers, the pictures and the tables of docs/trade.md.")
-    parser.add_argument("--tables", action="store_true", help="only the tables, from results/")
+    parser.add_argument("--tables", action="store_true", help="only the tables and pictures of results/")
     parser.add_argument("--uses", action="store_true", help="only the uses: half a minute")
     args = parser.parse_args()
     if not args.tables:
@@ -146,12 +144,12 @@ def main() -> None:
         USES_RESULTS.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     if not (args.tables or args.uses):
         for robot in ROBOTS:
-            trade = weigh(robot, progress=None)
+            trade = weigh(tw.load(robot), progress=sys.stderr.isatty())
             (HERE / "results" / f"trade_{robot}.json").write_text(_with_machine(trade.to_json()), encoding="utf-8")
-            draw(trade, DOCS / "pictures" / f"trade_{robot}.png")
         draw_steps(DOCS / "pictures" / "trade_steps.png")
-    for page in PAGES:
-        page.write_text(fill(page.read_text(encoding="utf-8"), tables()), encoding="utf-8")
+    for robot in ROBOTS:
+        save(draw_trade(read(robot)), DOCS / "pictures" / f"trade_{robot}.png")
+    write(PAGES, tables())
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ import time
 import mpmath
 import numpy as np
 import pytest
-from study.extremes.candidates import ALGORITHMS, candidates, solve
+from study.extremes.cells import ALGORITHMS, solve, ways
 from study.extremes.robots import Recipe, State
 from study.extremes.truth import accelerations, truth
 
@@ -79,13 +79,13 @@ def worst(model, s, who):
     """Error and estimate by algorithm, of one state."""
     right = truth(model, s)
     known = {bits: tw.accuracy(model, s.q.astype(bits)) for bits in (np.float32, np.float64)}
-    for way in candidates(model, s, right.torques, pinocchio=False):
-        name = {"rnea": "rnea", "aba": "aba", "crba + solve": "crba_solve"}.get(way.algorithm.partition(",")[0])
-        if name is None or way.who not in who:
+    for way in ways(model, s, right.torques, with_pinocchio=False):
+        name = {"rnea": "rnea", "aba": "aba", "crba + solve": "crba_solve"}.get(way.quantity.partition(",")[0])
+        if name is None or way.name not in who:
             continue
-        expected = float(getattr(known[np.float32 if way.who == "float32" else np.float64], name))
+        expected = float(getattr(known[np.dtype(way.number).type], name))
         try:
-            yield f"{way.algorithm} by {way.who}", right.error(ALGORITHMS[way.algorithm], way.answer()), expected
+            yield f"{way.quantity} by {way.name}", right.error(ALGORITHMS[way.quantity][1], way.value()), expected
         except ValueError:  # it refuses: no digit is wrong
             continue
 

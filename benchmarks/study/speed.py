@@ -3,143 +3,155 @@
 The long form, over batches and lengths and against other packages, is in benchmarks/.
 """
 
-from __future__ import annotations
-
-import argparse
-import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from importlib.util import find_spec
-from typing import Any, NamedTuple
+from types import ModuleType
+from typing import NamedTuple, Self
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 import twistwrench as tw
-from twistwrench.timing import round_robin
+from twistwrench.arrays import Array
+from twistwrench.validate.oracle import Oracle
 
-from .cases import QUANTITIES, ours, pinocchio, random_states
+from .quantities import QUANTITIES as OF_ROBOTS
+from .quantities import Robot, pinocchio
+from .record import BUSY, Record, table, time_in_turns
 
-__all__ = ["Speed", "add_speed", "speed"]
+Call = Callable[[], object]
+
+QUANTITIES = {
+    "rnea": "inverse dynamics",
+    "h": "bias forces",
+    "crba": "mass matrix",
+    "A_G": "centroidal momentum matrix",
+    "set": "M, h, J_c of the feet, A_G",
+    "aba": "forward dynamics",
+}
+KEYS = {"rnea": "ID", "h": "h", "crba": "M", "A_G": "A_G", "aba": "FD"}
 
 BATCH = 1000
-REFERENCE = 300
-"""States in a loop of Pinocchio."""
+REFERENCE = 300  # states in a loop of Pinocchio
 
 
-class Speed(NamedTuple):
-    """The time that one way takes for one quantity.
+class States(NamedTuple):
+    """A batch: q (n, nq), and v and a (n, nv), in our order."""
 
-    Attributes
-    ----------
-    quantity : str
-        A key of `cases.QUANTITIES`.
-    way : str
-    us, us_q1, us_q3 : float
-        Median and quartiles of the time for a state, µs.
-    ratio : float or None
-        Of the medians, to Pinocchio; None where that is not installed.
-    disturbed : bool
-        Whether the call had to wait for the processor in every round.
-    """
+    q: Array
+    v: Array
+    a: Array
 
-    quantity: str
-    way: str
-    us: float
-    us_q1: float
-    us_q3: float
-    ratio: float | None
-    disturbed: bool
+    def first(self, n: int, dtype: DTypeLike = float) -> Self:
+        """Return the first n, in a number type; if n is 1, without a batch axis."""
+        parts = (x[:n].astype(dtype) for x in self)
+        return type(self)(*(x[0] for x in parts)) if n == 1 else type(self)(*parts)
+
+
+def random_states(model: tw.Model, n: int, *, seed: int = 0) -> States:
+    """Draw 1000 states, and repeat them as often as needed."""
+    rng = np.random.default_rng(seed)
+    some = min(n, 1000)
+    q = np.stack([model.random_configuration(rng=rng) for _ in range(some)])
+    v, a = rng.standard_normal((2, some, model.nv))
+    return States(*(np.resize(x, (n, x.shape[-1])) for x in (q, v, a)))
+
+
+def ours(package: ModuleType, model: tw.Model, quantity: str, s: States) -> Call:
+    """Return a call of `tw` or `tw.fast`."""
+    if quantity == "set":
+        return lambda: package.dynamics(model, s.q, s.v)
+    call = Robot(model, None).ours(KEYS[quantity], package)
+    args = OF_ROBOTS[KEYS[quantity]].arguments(**s._asdict(), tau=s.a)
+    return lambda: call(*args)
+
+
+def theirs(model: tw.Model, quantity: str, s: States) -> Call:
+    """Return a loop of Pinocchio over states with a batch axis, called from Python one by one; it returns nothing."""
+    oracle = pinocchio(model)
+    if oracle is None:
+        raise ImportError("Pinocchio is not installed (pip install pin): there is nothing to compare with")
+    if quantity == "set":
+        arguments, call = [s.q, s.v], _whole(model, oracle)
+    else:
+        (way,) = Robot(model, oracle).pinocchio(KEYS[quantity])
+        arguments, call = OF_ROBOTS[KEYS[quantity]].arguments(**s._asdict(), tau=s.a), way.compute
+    states = list(zip(arguments[0], *map(oracle.tangent, arguments[1:]), strict=True))
+
+    def run() -> None:
+        for state in states:
+            call(*state)
+
+    return run
+
+
+def _whole(model: tw.Model, oracle: Oracle) -> Callable[[Array, Array], None]:
+    """Return Pinocchio's M, h, J_c of the feet and A_G of one state."""
+    pin, m, d = oracle.pin, oracle.model, oracle.data
+    feet = [m.getFrameId(name) for name in model.feet]
+
+    def call(q: Array, v: Array) -> None:
+        pin.crba(m, d, q)
+        pin.nonLinearEffects(m, d, q, v)
+        pin.computeCentroidalMap(m, d, q)
+        pin.computeJointJacobians(m, d, q)
+        pin.updateFramePlacements(m, d)
+        for foot in feet:
+            pin.getFrameJacobian(m, d, foot, pin.LOCAL_WORLD_ALIGNED)
+
+    return call
 
 
 def speed(
     model: tw.Model, *, rounds: int = 9, states: int = BATCH, after_round: Callable[[], object] = lambda: None
-) -> Iterator[Speed]:
+) -> list[Record]:
     """Time every quantity, all ways of one in turns.
 
-    Parameters
-    ----------
-    model : Model
-    rounds : int
-        Of each comparison.
-    states : int
-        In a batch.
-    after_round : callable
-        Called after each round of each quantity, for a progress bar.
-
-    Yields
-    ------
-    Speed
-
-    Examples
-    --------
     >>> import twistwrench as tw
-    >>> found = list(speed(tw.load("pendulum"), rounds=1, states=10))
-    >>> sorted({row.way for row in found} - {"Pinocchio"})
-    ['fast', 'fast, 10 float32', 'fast, 10 states', 'textbook']
+    >>> found = speed(tw.load("pendulum"), rounds=1, states=10)
+    >>> sorted({(r.way, r.number, r.states) for r in found if r.way != "Pinocchio"})
+    [('fast', 'float32', 10), ('fast', 'float64', 1), ('fast', 'float64', 10), ('textbook', 'float64', 1)]
     """
     s = random_states(model, max(states, REFERENCE))
-    first, some, single = s.first(1), s.first(states), s.first(states, np.float32)
+    found = []
     for quantity in QUANTITIES:
-        calls = {
-            "textbook": (ours(tw, model, quantity, first), 1),
-            "fast": (ours(tw.fast, model, quantity, first), 1),
-            f"fast, {states} states": (ours(tw.fast, model, quantity, some), states),
-            f"fast, {states} float32": (ours(tw.fast, model, quantity, single), states),
-        }
+        started: list[tuple[Record, Call]] = []
         if find_spec("pinocchio"):
-            calls = {"Pinocchio": (pinocchio(model, quantity, s.first(REFERENCE)), REFERENCE)} | calls
-        laps = round_robin([call for call, _ in calls.values()], rounds=rounds, after_round=after_round)
-        times = [1e6 * np.quantile(lap.seconds, [0.5, 0.25, 0.75]) / n for lap, (_, n) in zip(laps, calls.values())]
-        for way, lap, us in zip(calls, laps, times):
-            median, q1, q3 = us.tolist()
-            ratio = median / times[0][0] if "Pinocchio" in calls else None
-            yield Speed(quantity, way, median, q1, q3, ratio, not lap.kept)
+            reference = theirs(model, quantity, s.first(REFERENCE))
+            started.append((Record(quantity, "Pinocchio", states=REFERENCE), reference))
+        for way, package, number, n in (
+            ("textbook", tw, "float64", 1),
+            ("fast", tw.fast, "float64", 1),
+            ("fast", tw.fast, "float64", states),
+            ("fast", tw.fast, "float32", states),
+        ):
+            call = ours(package, model, quantity, s.first(n, number))
+            started.append((Record(quantity, way, number, states=n), call))
+        found += time_in_turns(started, rounds=rounds, after_round=after_round)
+    return found
 
 
-def add_speed(studies: Any) -> None:
-    """Add ``python -m benchmarks.study speed``."""
-    parser = studies.add_parser("speed", help="the textbook and tw.fast against Pinocchio, about ten seconds")
-    parser.add_argument("robot", nargs="?", default="go2", metavar="ROBOT", help="a catalogue name or a URDF (go2)")
-    parser.add_argument("--base", choices=["fixed", "floating"], help="the base, if not the robot's own")
-    parser.set_defaults(run=run_speed)
-
-
-def run_speed(args: argparse.Namespace) -> int:
-    """Print the table."""
-    from tqdm import tqdm
-
-    model, rounds = tw.load(args.robot, base=args.base), 9
-    with tqdm(total=rounds * len(QUANTITIES), unit=" rounds", disable=not sys.stderr.isatty(), leave=False) as bar:
-        print(table(model, list(speed(model, rounds=rounds, after_round=bar.update))))
-    return 0
-
-
-def table(model: tw.Model, found: list[Speed]) -> str:
-    """Return the rows as text."""
-    ways = list(dict.fromkeys(row.way for row in found))
-    lines = [f"{model.name}, nv = {model.nv}: microseconds for one state, median of rounds in turns"]
-    if "Pinocchio" in ways:
-        lines.append("× is against Pinocchio, called from Python for one state at a time")
-    else:
-        lines.append("Pinocchio is not installed (pip install pin): there is nothing to compare with")
-    lines.append("")
-    halves = zip(*(way.rpartition(", ")[::2] for way in ways))  # break "fast, 1000 states" into two lines
-    lines += [f"{'':26}" + "".join(f"{x:>{_width(way)}}" for way, x in zip(ways, half)) for half in halves]
-    for quantity, meaning in QUANTITIES.items():
-        cells = [f"{_cell(row):>{_width(row.way)}}" for row in found if row.quantity == quantity]
-        lines.append(f"{meaning:26}" + "".join(cells))
-    if any(row.disturbed for row in found):
-        lines.append("\n~ the machine had other things to do in every round: run it again when it has not")
-    return "\n".join(lines)
-
-
-def _width(way: str) -> int:
-    return 10 if way == "Pinocchio" else 16
-
-
-def _cell(row: Speed) -> str:
-    ratio = f" ({_short(row.ratio)} ×)" if row.ratio is not None and row.way != "Pinocchio" else ""
-    return "~" * row.disturbed + _short(row.us) + ratio
+def shown(model: tw.Model, found: Sequence[Record]) -> str:
+    """Return the records as a table, a column for each way."""
+    pinocchios = {r.quantity: r.seconds for r in found if r.way == "Pinocchio"}
+    rows: dict[str, dict[str, str]] = {quantity: {"": meaning} for quantity, meaning in QUANTITIES.items()}
+    for r in found:
+        theirs = pinocchios.get(r.quantity) if r.way != "Pinocchio" else None
+        many = r.states > 1 and r.way == "fast"
+        column = f"{r.states} {r.number.replace('float64', 'states')}" if many else r.way
+        ratio = f" ({_short(r.seconds / theirs)})" if theirs else ""
+        rows[r.quantity][column] = "~" * (not r.quiet) + _short(1e6 * r.seconds) + ratio
+    against = "in brackets: how often that of Pinocchio, called from Python for one state at a time"
+    return "\n".join(
+        [
+            f"{model.name}, nv = {model.nv}: microseconds for one state, median of rounds in turns",
+            against if pinocchios else "Pinocchio is not installed (pip install pin): there is nothing to compare with",
+            "",
+            table([row for row in rows.values() if len(row) > 1], {k: k for row in rows.values() for k in row}),
+            *([] if all(r.quiet for r in found) else ["", BUSY]),
+        ]
+    )
 
 
 def _short(x: float) -> str:
-    return f"{x:.2g}" if x < 1 else f"{x:.3g}" if x < 1000 else f"{x:.0f}"
+    return f"{x:.3g}" if x < 1000 else f"{x:.0f}"

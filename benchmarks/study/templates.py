@@ -1,90 +1,36 @@
 """``python -m benchmarks.study templates``: the error of each template of a walking robot, and its time."""
 
-from __future__ import annotations
-
-import argparse
-import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 import twistwrench as tw
-from twistwrench.motions import MOTIONS, Motion
-from twistwrench.options import at_least, check_writable
+from twistwrench.motions import Motion
 from twistwrench.templates import TEMPLATES
-from twistwrench.timing import round_robin
 
-from .trade.picture import check_format
-
-__all__ = ["ROBOTS", "Loss", "add_templates", "losses"]
+from .record import BUSY, Record, table, time_in_turns
 
 ROBOTS = ("go2", "solo12", "talos_reduced", "g1")
 REFERENCE = "full"
-
-
-class Loss(NamedTuple):
-    """The error of one template over one motion of one robot.
-
-    Attributes
-    ----------
-    robot, motion, template : str
-    rms, largest : float
-        Of the relative residual, over the states.
-    moment, force : float
-        Root mean square of the residual's parts, N m and N.
-    shift : float
-        By how much the moment left out moves the centre of pressure of a robot that pushes with its weight, root mean
-        square: moment / weight, m.
-    us, law_us : float
-        Time for a state of the batch, µs: from (q, v, a), and of the template's law alone.
-    ratio, law_ratio : float
-        Of those to the time of the full model.
-    disturbed : bool
-        Whether the machine was busy with other work in every round.
-    """
-
-    robot: str
-    motion: str
-    template: str
-    rms: float
-    largest: float
-    moment: float
-    force: float
-    shift: float
-    us: float
-    law_us: float
-    ratio: float
-    law_ratio: float
-    disturbed: bool
+MEASURED = ("relative", "largest", "moment", "shift", "force", "rate", "law")
 
 
 def losses(
     model: tw.Model, motion: Motion, *, rounds: int = 7, after_round: Callable[[], object] = lambda: None
-) -> Iterator[Loss]:
+) -> list[Record]:
     """Compare every template with the full model over a motion, and time them in turns.
 
-    Parameters
-    ----------
-    model : Model
-    motion : Motion
-    rounds : int
-        Of the timing.
-    after_round : callable
-        Called after each round, for a progress bar.
+    Each gives the root mean square over the states of the residual of ḣ_G: `relative`, and of that also the `largest`;
+    of its parts `moment`, N m, and `force`, N; `shift`, m: by how much the moment moves the centre of pressure of a
+    robot that pushes with its weight. And the times of its `rate` from (q, v, a) and of its `law`.
 
-    Yields
-    ------
-    Loss
-
-    Examples
-    --------
     >>> import twistwrench as tw
     >>> model = tw.load("go2")
-    >>> for loss in losses(model, tw.motions.walk(model, samples=20), rounds=1):
-    ...     print(f"{loss.template:12} {loss.rms:.0e}")
+    >>> for r in losses(model, tw.motions.walk(model, samples=20), rounds=1):
+    ...     if r.quantity == "relative":
+    ...         print(f"{r.way:12} {r.error:.0e}")
     point_mass   2e-02
     lipm         2e-02
     srbm_frozen  2e-02
@@ -92,25 +38,25 @@ def losses(
     centroidal   ...e-16
     full         0e+00
     """
-    made = {name: kind.of(model, model.standing()) for name, kind in TEMPLATES.items()}
-    state = model.state(motion.q, v=motion.v, a=motion.a)
-    calls: list[Callable[[], object]] = []
-    for template in made.values():
-        known = template.read(*state)
-        calls += [partial(template.rate, motion.q, motion.v, motion.a), partial(template.law, *known)]
-    laps = round_robin(calls, rounds=rounds, after_round=after_round)
-    times = [float(np.median(lap.seconds)) * 1e6 / len(motion) for lap in laps]
-    full = times[2 * list(made).index(REFERENCE)]
-    for k, (name, template) in enumerate(made.items()):
-        residual = template.residual(motion.q, motion.v, motion.a)
-        whole, law = times[2 * k : 2 * k + 2]
-        yield Loss(
-            *(model.name, motion.name, name),
-            *(_rms(residual.relative[:, None]), float(residual.relative.max())),
-            *(_rms(residual.moment), _rms(residual.force), _rms(residual.moment) / residual.weight),
-            *(whole, law, whole / full, law / full),
-            disturbed=not all(lap.kept for lap in laps[2 * k : 2 * k + 2]),
-        )
+    state = motion.q, motion.v, motion.a
+    found: list[Record] = []
+    started: list[tuple[Record, Callable[[], object]]] = []
+    for name, kind in TEMPLATES.items():
+        template = kind.of(model, model.standing())
+        residual = template.residual(*state)
+        moment = _rms(residual.moment)
+        errors = {
+            "relative": _rms(residual.relative[:, None]),
+            "largest": float(residual.relative.max()),
+            "moment": moment,
+            "shift": moment / residual.weight,
+            "force": _rms(residual.force),
+        }
+        found += [Record(quantity, name, where=motion.name, error=error) for quantity, error in errors.items()]
+        known = template.read(*model.state(motion.q, v=motion.v, a=motion.a))
+        for quantity, call in (("rate", partial(template.rate, *state)), ("law", partial(template.law, *known))):
+            started.append((Record(quantity, name, where=motion.name, states=len(motion)), call))
+    return found + time_in_turns(started, rounds=rounds, after_round=after_round)
 
 
 def _rms(x: Any) -> float:
@@ -118,68 +64,29 @@ def _rms(x: Any) -> float:
     return float(np.sqrt((x * x).sum(axis=-1).mean()))
 
 
-def add_templates(studies: Any) -> None:
-    """Add ``python -m benchmarks.study templates``."""
-    parser = studies.add_parser(
-        "templates",
-        help="what point mass, pendulum and rigid body leave out of a walk, a trot and a jump",
-        description="Make a walk, a trot and a jump of each robot, compare every template with the full model over "
-        "each, and time them in turns.",
-    )
-    parser.add_argument("robot", nargs="*", default=list(ROBOTS), metavar="ROBOT", help=f"({' '.join(ROBOTS)})")
-    parser.add_argument("--samples", type=at_least(2), default=200, metavar="N", help="states of each motion (200)")
-    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the first robot: a png, svg or pdf")
-    parser.set_defaults(run=run_templates)
-
-
-def run_templates(args: argparse.Namespace) -> int:
-    """Print a table for each robot, and draw the first."""
-    from tqdm import tqdm
-
-    if args.plot is not None:
-        check_format(args.plot)
-        check_writable("--plot", args.plot)
-    drawn = args.plot is None
-    for robot in args.robot:
-        try:
-            model = tw.load(robot)
-        except tw.NameNotFound:
-            if robot not in ROBOTS:
-                raise
-            print(f"{robot}: not installed, left out (example-robot-data)\n")
-            continue
-        motions = [make(model, samples=args.samples) for make in MOTIONS.values()]
-        rounds = 7
-        with tqdm(total=rounds * len(motions), desc=robot, disable=not sys.stderr.isatty(), leave=False) as bar:
-            found = [loss for m in motions for loss in losses(model, m, rounds=rounds, after_round=bar.update)]
-        print(_table(robot, model, motions, found))
-        if not drawn:
-            from .templates_picture import draw
-
-            draw(model, motions, args.plot)
-            drawn = True
-    return 0
-
-
-def _table(robot: str, model: tw.Model, motions: Sequence[Motion], found: Sequence[Loss]) -> str:
-    head = ("relative", "moment, N m", "shift, mm", "force, N", "µs/state", "× full", "law × full")
+def shown(robot: str, model: tw.Model, motions: Sequence[Motion], found: Sequence[Record]) -> str:
+    """Return the records of a robot as a table, and what the ground must do."""
+    by = {(r.where, r.way, r.quantity): r for r in found}
+    rows = []
+    for where, way in dict.fromkeys((r.where, r.way) for r in found):
+        relative, largest, moment, shift, force, rate, law = (by[where, way, name] for name in MEASURED)
+        row = {"motion": where, "template": way, "relative": f"{relative.error:.2g} ({largest.error:.2g})"}
+        row |= {"moment, N m": moment.error, "shift, mm": 1e3 * shift.error, "force, N": force.error}
+        full = by[where, REFERENCE, "rate"].seconds
+        busy = "~" * (not (rate.quiet and law.quiet))
+        rows.append(
+            row
+            | {"a state": busy + rate.time.lstrip("~"), "× full": rate.seconds / full, "law × full": law.seconds / full}
+        )
+    formats = {"moment, N m": ".2g", "shift, mm": ".2g", "force, N": ".2g", "× full": ".2f", "law × full": ".3f"}
     lines = [
         f"{robot}, nv = {model.nv}, {model.mass:.3g} kg: what is left out of ḣ_G, root mean square over the states",
         "relative to the weight (largest); shift = moment / weight: how far it moves the centre of pressure",
         "",
-        f"{'motion':7}{'template':11}{head[0]:>18}" + "".join(f"{title:>{len(title) + 2}}" for title in head[1:]),
+        *([table(rows, dict.fromkeys(rows[0]), **formats)] if rows else []),
+        *(_needs(model, motion) for motion in motions),
+        *([] if all(r.quiet for r in found) else [BUSY]),
     ]
-    for motion in motions:
-        for r in found:
-            if r.motion == motion.name:
-                share = f"{r.rms:.2g} ({r.largest:.2g})"
-                numbers = [f"{x:.2g}" for x in (r.moment, 1e3 * r.shift, r.force)]
-                numbers += ["~" * r.disturbed + f"{r.us:.3g}", f"{r.ratio:.2f}", f"{r.law_ratio:.3f}"]
-                cells = "".join(f"{x:>{len(title) + 2}}" for x, title in zip(numbers, head[1:]))
-                lines.append(f"{r.motion:7}{r.template:11}{share:>18}{cells}")
-        lines.append(_needs(model, motion))
-    if any(r.disturbed for r in found):
-        lines.append("~ the machine had other things to do in every round: run it again when it has not")
     return "\n".join(lines) + "\n"
 
 
@@ -187,10 +94,10 @@ def _needs(model: tw.Model, motion: Motion) -> str:
     """Return in words what the ground must do for a motion."""
     needed = tw.motions.ground(model, motion)
     broken = tw.motions.limits_broken(model, motion)
-    limits = f"        outside the limits of {len(broken)} joints: {', '.join(broken)}\n" if broken else ""
+    limits = f"\n  outside the limits of {len(broken)} joints: {', '.join(broken)}" if broken else ""
     worst = 1e3 * float(needed.margin.min())
     return (
-        f"        the ground: loaded for {100 * needed.loaded.mean():.0f} % of the time, friction of at least "
-        f"{needed.friction.max():.2f},\n        centre of pressure at worst {abs(worst):.0f} mm "
-        f"{'inside' if worst > 0 else 'outside'} the polygon of the feet's frames\n{limits}"
+        f"{motion.name}: the ground is loaded for {100 * needed.loaded.mean():.0f} % of the time, friction of at least "
+        f"{needed.friction.max():.2f},\n  centre of pressure at worst {abs(worst):.0f} mm "
+        f"{'inside' if worst > 0 else 'outside'} the polygon of the feet's frames{limits}"
     )

@@ -8,8 +8,8 @@ import sys
 import numpy as np
 import pytest
 from study.__main__ import main as study_main
-from study.cases import QUANTITIES
-from study.speed import Speed, table
+from study.record import Record
+from study.speed import QUANTITIES, shown
 from study.trade import SHORT, weigh
 
 import twistwrench as tw
@@ -156,18 +156,25 @@ def test_starting_the_exercises_says_where_pytest_is_missing(there, tmp_path, mo
 
 
 def test_the_table_of_speeds_fits_into_a_hundred_columns():
-    ways = ("Pinocchio", "textbook", "fast", "fast, 1000 states", "fast, 1000 float32")
-    rows = [Speed(key, way, 12345.6, 1, 1, 1234.5, disturbed=True) for key in QUANTITIES for way in ways]
-    lines = table(GO2, rows).splitlines()
-    assert max(map(len, lines)) <= 100
-    assert [line.split() for line in lines[3:5]] == [
-        ["fast", "fast"],
-        ["Pinocchio", "textbook", "fast", "1000", "states", "1000", "float32"],
+    ways = [
+        ("Pinocchio", "float64", 300, 1e-5),
+        ("textbook", "float64", 1, 1.23456e-2),
+        ("fast", "float64", 1, 1.23456e-2),
     ]
+    ways += [("fast", number, 1000, 1.23456e-2) for number in ("float64", "float32")]
+    rows = [
+        Record(key, way, number, states=n, seconds=seconds, quiet=False)
+        for key in QUANTITIES
+        for way, number, n, seconds in ways
+    ]
+    lines = shown(GO2, rows).splitlines()
+    assert max(map(len, lines)) <= 100
+    assert lines[3].split() == ["Pinocchio", "textbook", "fast", "1000", "states", "1000", "float32"]
+    assert lines[4].split("  ")[-1].strip() == "~12346 (1235)"
 
 
 @pytest.mark.slow
-def test_the_tables_and_words_of_a_trade_fit_into_a_hundred_columns():
+def test_the_tables_of_a_trade_fit_into_a_hundred_columns():
     pytest.importorskip("mpmath", reason="the truth is computed by mpmath")
-    text = str(weigh("pendulum", only=["FD"], effort=SHORT))
+    text = str(weigh(PENDULUM, only=["FD"], effort=SHORT))
     assert max(map(len, text.splitlines())) <= 100

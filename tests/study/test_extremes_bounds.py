@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from study.__main__ import main as study_main
 from study.extremes import grid
-from study.extremes.bounds import Measured, bounds, measured, table
+from study.extremes.bounds import Measured, counts, measured, shown
 from study.extremes.robots import Recipe
 
 pytest.importorskip("mpmath")
@@ -18,12 +18,12 @@ def test_a_bound_below_an_error_is_found():
     good = Measured("tau", "float64", "usual", np.array([1.0, 0.0, 3.0]), np.array([2.0, 0.0, np.inf]))
     bad = Measured("tau", "float64", "odd", np.array([2.0]), np.array([1.9]))
     none = Measured("tau", "float64", "none", None, None)
-    (found,) = bounds([good, bad, none])
-    assert (found.cells, found.raised, found.entries, found.held, found.infinite) == (3, 1, 4, 3, 1)
-    assert (found.median, found.worst, found.broken) == (pytest.approx(1.475), 2.0, ["odd"])
-    assert "does not hold: odd" in table([found])
+    (found,) = counts([good, bad, none])
+    assert [found[name] for name in ("cells", "raised", "entries", "held", "infinite")] == [3, 1, 4, 3, 1]
+    assert (found["median"], found["worst"], found["broken"]) == (pytest.approx(1.475), 2.0, ["odd"])
+    assert "does not hold: odd" in shown([found])
     noisy = bad._replace(noise=0.2)
-    assert bounds([noisy])[0].held == 1
+    assert counts([noisy])[0]["held"] == 1
 
 
 @pytest.mark.slow
@@ -38,12 +38,12 @@ def test_bounds_hold_in_a_few_cells(monkeypatch, tmp_path, capsys):
         assert one["held"] == one["entries"] > 0, one
         assert one["raised"] >= 1, one  # the robot that is not physical
         assert 1 <= one["median"] < 1.01, one
-    assert "A_G      float32" in capsys.readouterr().out
+    assert "A_G       float32" in capsys.readouterr().out
 
 
 @pytest.mark.slow
 def test_bounds_hold_in_every_sixtieth_cell():
     recipes = [recipe for recipe in grid.cells(full=False) if recipe.bodies <= 10][::60]
-    found = bounds(one for recipe in recipes for one in measured(recipe))
-    assert [(one.quantity, one.number, one.broken) for one in found if one.broken] == []
-    assert all(one.median < 30 for one in found)
+    found = counts(one for recipe in recipes for one in measured(recipe))
+    assert [one for one in found if one["broken"]] == []
+    assert all(one["median"] < 30 for one in found)

@@ -5,13 +5,13 @@ import json
 import mpmath
 import numpy as np
 import pytest
-from study.__main__ import main as study_main
-from study.extremes import command, grid
-from study.extremes.programs import Compared, compared, counts, medians, table
+from study.extremes import grid
+from study.extremes.programs import Compared, compared, counts, medians, shown
 from study.extremes.robots import Recipe
 from study.extremes.truth import truth
 
 import twistwrench as tw
+from study import __main__ as command
 
 SYMBOLS = {"rnea": "tau", "crba": "M", "centroidal map": "A_G", "aba, steered": "steered", "aba, pushed": "pushed"}
 
@@ -31,11 +31,11 @@ def test_errors_against_32_digits_are_those_against_50():
             "aba, pushed": lambda by: by.aba(model, q, v, pushed),
         }
         found = list(compared(recipe, 1))
-        assert [one.algorithm for one in found] == [*answers]
+        assert [one.quantity for one in found] == [*answers]
         for one in found:
             for by, error in ((tw, one.textbook), (tw.fast, one.program)):
-                expected = right.error(SYMBOLS[one.algorithm], answers[one.algorithm](by)[0])
-                assert error[0] == pytest.approx(expected, rel=1e-2, abs=1e-18), (one.algorithm, by)
+                expected = right.error(SYMBOLS[one.quantity], answers[one.quantity](by)[0])
+                assert error[0] == pytest.approx(expected, rel=1e-2, abs=1e-18), (one.quantity, by)
 
 
 def test_many_states_of_a_cell_are_different_and_the_first_is_that_of_the_maps():
@@ -54,11 +54,11 @@ def test_a_program_that_rounds_worse_is_found():
     fair = Compared("rnea", "usual", error, error[[1, 0, 2, 3]], same)
     worse = Compared("rnea", "odd", error, 3 * error, same)
     (found,) = counts([fair, worse])
-    assert (found.cells, found.states, found.same) == (2, 6, 2)
-    assert found.missed == ["odd"]
-    assert found.above == pytest.approx(3 / 6)
-    assert (found.cell_median, found.cell_worst) == (pytest.approx(2.0), pytest.approx(3.0))
-    assert "more than twice: odd" in table([found])
+    assert (found["cells"], found["states"], found["same"]) == (2, 6, 2)
+    assert found["missed"] == ["odd"]
+    assert found["above"] == pytest.approx(3 / 6)
+    assert (found["cell_median"], found["cell_worst"]) == (pytest.approx(2.0), pytest.approx(3.0))
+    assert "more than twice: odd" in shown([found])
     assert medians([worse]) == {"odd": {"rnea": [1.5e-16, 4.5e-16]}}
 
 
@@ -67,7 +67,7 @@ def test_the_command_counts_and_writes(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(grid, "cells", lambda full: [Recipe(bodies=2), Recipe(bodies=100)])
     monkeypatch.setattr(command, "STATES", 20)
     path = tmp_path / "programs.json"
-    assert study_main(["extremes", "--programs", "--json", str(path)]) == 0
+    assert command.main(["extremes", "--programs", "--json", str(path)]) == 0
     found = json.loads(path.read_text(encoding="utf-8"))
     assert found["states"] == 20
     assert [one["cells"] for one in found["counts"]] == [1] * 5

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from study.__main__ import main as study_main
-from study.templates import _table
+from study.templates import shown
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as slow
@@ -431,7 +431,7 @@ def in_a_millisecond(calls, *, rounds, after_round):
 
 @pytest.mark.slow
 def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("study.templates.round_robin", in_a_millisecond)
+    monkeypatch.setattr("study.record.round_robin", in_a_millisecond)
     picture = tmp_path / "templates.png"
     assert study_main(["templates", "go2", "--samples", "20", "--plot", str(picture)]) == 0
     printed = capsys.readouterr().out
@@ -439,8 +439,8 @@ def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
     assert [row[:2] for row in rows] == [(kind, name) for kind in ("walk", "trot", "jump") for name in TEMPLATES]
     assert max(float(rms) for _, name, rms in rows if name in ("centroidal", "full")) < 1e-14
     assert "60 % of the time" in printed  # a jump is loaded for less
-    assert len(re.findall(r" +50 +1\.00 +1\.000$", printed, re.MULTILINE)) == 3 * (len(TEMPLATES) - 1)
-    assert len(re.findall(r"^\w+ +point_mass .* +~50 +1\.00 +1\.000$", printed, re.MULTILINE)) == 3
+    assert len(re.findall(r" +50 µs +1\.00 +1\.000$", printed, re.MULTILINE)) == 3 * (len(TEMPLATES) - 1)
+    assert len(re.findall(r"^\w+ +point_mass .* +~50 µs +1\.00 +1\.000$", printed, re.MULTILINE)) == 3
     assert printed.count("other things to do") == 1
     assert picture.stat().st_size > 20_000
 
@@ -448,10 +448,10 @@ def test_the_study_prints_its_table_and_draws(tmp_path, monkeypatch, capsys):
 @pytest.mark.slow
 def test_the_picture_of_the_study_draws_the_values_that_it_has():
     figure = pytest.importorskip("matplotlib.figure", reason="matplotlib is not installed: the picture is not made")
-    from study.templates_picture import residuals
+    from study.pictures import draw_residuals
 
     jump, ax = tw.motions.jump(GO2, samples=20), figure.Figure().add_subplot()
-    residuals(GO2, jump, ax)
+    draw_residuals(GO2, jump, ax)
     point = next(line for line in ax.lines if line.get_label() == "point_mass")
     relative = PointMass.of(GO2, STAND).residual(jump.q, jump.v, jump.a).relative
     assert relative.min() < 1e-10
@@ -460,8 +460,8 @@ def test_the_picture_of_the_study_draws_the_values_that_it_has():
 
 
 def test_the_study_has_a_table_for_every_robot(monkeypatch, capsys):
-    monkeypatch.setattr("study.templates.round_robin", in_a_millisecond)
-    monkeypatch.setattr("study.templates.MOTIONS", {"walk": tw.motions.walk})
+    monkeypatch.setattr("study.record.round_robin", in_a_millisecond)
+    monkeypatch.setattr("study.__main__.MOTIONS", {"walk": tw.motions.walk})
     assert study_main(["templates", "go2", "humanoid", "--samples", "4"]) == 0
     printed = capsys.readouterr().out
     assert re.findall(r"^(\w+), nv = (\d+)", printed, re.MULTILINE) == [("go2", "18"), ("humanoid", "27")]
@@ -475,7 +475,7 @@ def test_a_robot_of_the_study_that_is_not_installed_is_left_out(monkeypatch, cap
 
 
 def test_a_table_of_calls_that_nothing_disturbed_says_nothing_of_it():
-    assert "other things to do" not in _table("go2", GO2, [], [])
+    assert "other things to do" not in shown("go2", GO2, [], [])
 
 
 @pytest.mark.parametrize("samples", ["1", "-5", "few"])

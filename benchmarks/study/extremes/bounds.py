@@ -1,9 +1,6 @@
 """Whether proved bounds hold: programs with ``bound=True`` in the cells of the grid, against the truth in 80 digits."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,26 +8,18 @@ import numpy as np
 import twistwrench as tw
 from twistwrench import newton_euler_3d as ne
 from twistwrench.arrays import Array
-from twistwrench.errors import ModelError, SingularError
 
+from ..numbers import HARDWARE
+from ..quantities import QUANTITIES
+from ..record import table
 from .robots import Recipe
-
-__all__ = ["LONGEST", "Bound", "Measured", "bounds", "measured", "table"]
-
-LONGEST = 30
-"""Robots with more bodies are left out: a bound takes a minute to compile for them."""
 
 DIGITS = 80
 NOISE = 1e-37
 """Of the truth, relative to its largest entry: an oblique axis of a program is a unit vector to 38 digits."""
 
-NUMBERS = ("float64", "float32")
-TRUTH: dict[str, Callable[..., Array]] = {
-    "tau": ne.inverse_dynamics,
-    "M": ne.mass_matrix,
-    "A_G": ne.centroidal_map,
-    "qdd": ne.forward_dynamics,
-}
+KEYS = {"tau": "ID", "M": "M", "A_G": "A_G", "qdd": "FD"}
+"""Of the results of programs, in `QUANTITIES`."""
 
 
 class Measured(NamedTuple):
@@ -39,38 +28,9 @@ class Measured(NamedTuple):
     quantity: str
     number: str
     cell: str
-    off: Array | None
-    bound: Array | None
+    off: Array | None = None
+    bound: Array | None = None
     noise: float = 0.0
-
-
-@dataclass(frozen=True)
-class Bound:
-    """The bounds of one quantity in one number type, over all cells.
-
-    Attributes
-    ----------
-    quantity, number : str
-    cells, raised : int
-        Cells measured, and those where an error was raised instead.
-    entries, held, infinite : int
-        Entries, those whose bound is not below the error, and those for which nothing is certain.
-    median, worst : float
-        Of bound over error, where the error is not 0 and the bound is finite.
-    broken : list of str
-        The cells with an entry whose bound is below the error.
-    """
-
-    quantity: str
-    number: str
-    cells: int
-    raised: int
-    entries: int
-    held: int
-    infinite: int
-    median: float
-    worst: float
-    broken: list[str]
 
 
 def measured(recipe: Recipe) -> Iterator[Measured]:
@@ -78,81 +38,81 @@ def measured(recipe: Recipe) -> Iterator[Measured]:
 
     The truth is that of the arguments as the program gets them, rounded to its numbers.
     """
-    cell = ", ".join(f"{name} {x}" for name, x in recipe.changed.items()) or "usual"
+    cell = str(recipe)
     try:
         model, s = recipe.model, recipe.state
-    except ModelError:
-        yield from (Measured(quantity, number, cell, None, None) for quantity in TRUTH for number in NUMBERS)
+    except tw.ModelError:
+        yield from (Measured(quantity, number, cell) for quantity in KEYS for number in HARDWARE)
         return
     tau = ne.inverse_dynamics(model, *(ne.as_mpmath(x) for x in s)).astype(np.float64)
     for wanted in (("tau", "M", "A_G"), ("qdd",)):
         shared: dict[Any, Any] = {}
-        for number in NUMBERS:
+        for number in HARDWARE:
             program: Any = tw.compile(model, wanted, dtype=number, bound=True, backend="numpy")
             program._codes = shared  # the same line: rewritten once
             with np.errstate(over="ignore"):
-                state = {"q": s.q, "v": s.v, "a": s.a, "tau": tau}
-                given = {name: x.astype(number) for name, x in state.items() if name in program.arguments}
+                given = {name: x.astype(number) for name, x in {**s._asdict(), "tau": tau}.items()}
             try:
-                value, bound = program(**given)
+                found = program(**{name: x for name, x in given.items() if name in program.arguments})
             except ValueError:
-                yield from (Measured(quantity, number, cell, None, None) for quantity in wanted)
+                yield from (Measured(quantity, number, cell) for quantity in wanted)
                 continue
             for quantity in wanted:
-                yield _compared(model, quantity, number, cell, given, (value, bound))
+                value, bound = (getattr(x, quantity) for x in found)
+                off, noise = _off(model, quantity, given, value)
+                yield Measured(quantity, number, cell, off, bound.astype(np.float64), noise)
 
 
-def _compared(
-    model: Any, quantity: str, number: str, cell: str, given: dict[str, Array], found: tuple[Any, Any]
-) -> Measured:
-    """Return how far the entries of a quantity are off; infinitely where there is no right value."""
+def _off(model: Any, quantity: str, given: dict[str, Array], value: Array) -> tuple[Array, float]:
+    """Return how far the entries of a quantity are off, infinitely where there is no right value; and the noise."""
     import mpmath
 
-    value, bound = (getattr(x, quantity) for x in found)
-    names = {"tau": "q v a", "qdd": "q v tau"}.get(quantity, "q").split()
+    known = QUANTITIES[KEYS[quantity]]
     with mpmath.workdps(DIGITS):
         try:
-            right = TRUTH[quantity](model, *(ne.as_mpmath(given[name]) for name in names))
-        except SingularError:
-            return Measured(quantity, number, cell, np.full(value.shape, np.inf), bound)
-        off = abs(ne.as_mpmath(value) - right).astype(np.float64)
-        return Measured(quantity, number, cell, off, bound.astype(np.float64), NOISE * float(abs(right).max()))
+            right = known.truth(model, *(ne.as_mpmath(x) for x in known.arguments(**given)))
+        except tw.SingularError:
+            return np.full(value.shape, np.inf), 0.0
+        return abs(ne.as_mpmath(value) - right).astype(np.float64), NOISE * float(abs(right).max())
 
 
-def bounds(every: Iterable[Measured]) -> list[Bound]:
-    """Count over all cells."""
+def counts(every: Iterable[Measured]) -> list[dict[str, Any]]:
+    """Count over all cells, by quantity and number type.
+
+    `raised` are cells where an error was raised; `held` the entries whose bound is not below the error, `infinite`
+    those for which nothing is certain; `median` and `worst` of bound over error, where the error is not 0 and the bound
+    is finite; `broken` the cells with an entry whose bound is below the error.
+    """
     by: dict[tuple[str, str], list[Measured]] = {}
     for one in every:
         by.setdefault((one.quantity, one.number), []).append(one)
-    return [_counted(quantity, number, found) for (quantity, number), found in by.items()]
+    return [{"quantity": quantity, "number": number, **_count(found)} for (quantity, number), found in by.items()]
 
 
-def _counted(quantity: str, number: str, found: Sequence[Measured]) -> Bound:
-    held = infinite = entries = 0
-    ratios, broken = [np.zeros(0)], list[str]()
-    for one in found:
-        if one.off is None or one.bound is None:
-            continue
-        kept, finite = one.off <= one.bound + one.noise, one.bound < np.inf
-        ratios.append((one.bound / np.where(one.off > 0, one.off, 1))[finite & (one.off > one.noise)])
-        entries, held, infinite = entries + kept.size, held + int(kept.sum()), infinite + int((~finite).sum())
-        broken += [] if kept.all() else [one.cell]
-    ratio = np.concatenate(ratios)
-    raised = sum(one.off is None for one in found)
-    median, worst = (float(np.median(ratio)), float(ratio.max())) if ratio.size else (0.0, 0.0)
-    return Bound(quantity, number, len(found), raised, entries, held, infinite, median, worst, broken)
-
-
-def table(found: Iterable[Bound]) -> str:
-    """Return the table as text."""
-    lines = [
-        f"{'bound':8} {'':8} {'cells':>5} {'raised':>7} {'entries':>7} {'held':>7} {'infinite':>8} "
-        f"{'bound / error, median':>22} {'largest':>8}"
+def _count(found: Sequence[Measured]) -> dict[str, Any]:
+    known = [one for one in found if one.off is not None]
+    kept = [one.off <= one.bound + one.noise for one in known]
+    finite = [one.bound < np.inf for one in known]
+    ratios = [
+        (one.bound / np.where(one.off > 0, one.off, 1))[sure & (one.off > one.noise)]
+        for one, sure in zip(known, finite, strict=True)
     ]
-    for b in found:
-        lines.append(
-            f"{b.quantity:8} {b.number:8} {b.cells:5} {b.raised:7} {b.entries:7} {b.held:7} {b.infinite:8} "
-            f"{b.median:22.3f} {b.worst:8.1e}"
-        )
-        lines += [f"  does not hold: {cell}" for cell in b.broken]
-    return "\n".join(lines)
+    ratio = np.concatenate([np.zeros(0), *ratios])
+    return {
+        "cells": len(found),
+        "raised": len(found) - len(known),
+        "entries": sum(x.size for x in kept),
+        "held": sum(int(x.sum()) for x in kept),
+        "infinite": sum(int((~x).sum()) for x in finite),
+        "median": float(np.median(ratio)) if ratio.size else 0.0,
+        "worst": float(ratio.max(initial=0.0)),
+        "broken": [one.cell for one, x in zip(known, kept, strict=True) if not x.all()],
+    }
+
+
+def shown(found: Sequence[dict[str, Any]]) -> str:
+    """Return the table of `counts`."""
+    names = "quantity", "number", "cells", "raised", "entries", "held", "infinite"
+    head = dict.fromkeys(names) | {"median": "bound / error, median", "worst": "largest"}
+    broken = [f"  {b['quantity']} does not hold: {cell}" for b in found for cell in b["broken"]]
+    return "\n".join([table(found, head, median=".3f", worst=".1e"), *broken])

@@ -1,25 +1,17 @@
 """The robot of the grid: one recipe with every dimension, so that any two can be at their ends at once."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+import twistwrench as tw
 from twistwrench.arrays import Array
-from twistwrench.model import Builder, Model, Revolute
-from twistwrench.spatial import SE3, SpatialInertia
-
-__all__ = ["QUATERNION", "Recipe", "State"]
 
 EARTH = np.array([0.0, 0.0, -9.81])
-QUATERNION = slice(3, 7)
-"""Where the base's quaternion stands in q."""
-
-LINEAR = slice(3, 6)
-"""Where the base's linear velocity stands in v."""
+QUATERNION = slice(3, 7)  # of the base, in q
+LINEAR = slice(3, 6)  # velocity of the base, in v
 
 
 class State(NamedTuple):
@@ -32,59 +24,30 @@ class State(NamedTuple):
 
 @dataclass(frozen=True)
 class Recipe:
-    """A floating base with a chain of rods, or with all rods at the base; one number for each dimension.
+    """A floating base with a chain of rods, or with all rods at the base; one number for each dimension."""
 
-    Attributes
-    ----------
-    bodies : int
-        With the base.
-    leaves : bool
-        Whether every rod hangs at the base, and not at the rod before it.
-    mass_ratio : float
-        Mass of the last body over that of the first; between them it grows by a constant factor.
-    distance : float
-        Of the base from the origin, m.
-    speed : float
-        Of the joints and of the base, rad/s and m/s.
-    base_speed : float
-        By how much faster than that the base flies along, m/s; it does not turn faster.
-    length, mass, time : float
-        How many metres, kilograms and seconds stand for one: the same robot in other units.
-    light : float
-        Mass of the body in the middle, as a multiple of the usual one; at zero it has no inertia either.
-    tip : float
-        The same of the last body.
-    rotor : float
-        Inertia of every rotor over that of one rod.
-    angle : float or None
-        Of all joints, rad; random where None.
-    parallel : float
-        Angle between the axes of neighbouring joints, rad, which meet in one point where it is not 1.
-    norm : float
-        Of the base's quaternion before `Model.normalize`.
-    off : float
-        By how much it is off norm 1 after that.
-    edge : float
-        By how much the largest moment of a rod falls short of the sum of the others, as a part of it.
-    """
+    bodies: int = 7  # with the base
+    leaves: bool = False  # whether every rod hangs at the base, and not at the rod before it
+    mass_ratio: float = 1.0  # of the last body to the first; between them it grows by a constant factor
+    distance: float = 1.0  # of the base from the origin, m
+    speed: float = 1.0  # of the joints and of the base, rad/s and m/s
+    base_speed: float = 1.0  # by how much faster than that the base flies along, m/s; it does not turn faster
+    length: float = 1.0  # metres that stand for one: the same robot in other units
+    mass: float = 1.0  # kilograms that stand for one
+    time: float = 1.0  # seconds that stand for one
+    light: float = 1.0  # mass of the body in the middle, of the usual one; at zero it has no inertia either
+    tip: float = 1.0  # the same of the last body
+    rotor: float = 0.0  # inertia of every rotor over that of one rod
+    angle: float | None = None  # of all joints, rad; random where None
+    parallel: float = 1.0  # angle between the axes of neighbouring joints, rad, which meet where it is not 1
+    norm: float = 1.0  # of the base's quaternion before `Model.normalize`
+    off: float = 0.0  # by how much it is off norm 1 after that
+    edge: float = 0.1  # by how much the largest moment of a rod falls short of the sum of the others, as a part of it
 
-    bodies: int = 7
-    leaves: bool = False
-    mass_ratio: float = 1.0
-    distance: float = 1.0
-    speed: float = 1.0
-    base_speed: float = 1.0
-    length: float = 1.0
-    mass: float = 1.0
-    time: float = 1.0
-    light: float = 1.0
-    tip: float = 1.0
-    rotor: float = 0.0
-    angle: float | None = None
-    parallel: float = 1.0
-    norm: float = 1.0
-    off: float = 0.0
-    edge: float = 0.1
+    def __str__(self) -> str:
+        """Return in words which values are not the usual ones."""
+        values = {name: x if isinstance(x, bool) else f"{x:g}" for name, x in self.changed.items()}
+        return ", ".join(f"{name} {x}" for name, x in values.items()) or "usual"
 
     @property
     def changed(self) -> dict[str, float | bool | None]:
@@ -92,17 +55,17 @@ class Recipe:
         return {f.name: getattr(self, f.name) for f in fields(self) if getattr(self, f.name) != f.default}
 
     @cached_property
-    def model(self) -> Model:
+    def model(self) -> tw.Model:
         """The robot."""
         rods = [self._body(k) for k in range(self.bodies)]
         gravity = EARTH * self.length / self.time**2
-        builder = Builder("extreme", base="floating", root="body_0000", root_inertia=rods[0], gravity=gravity)
+        builder = tw.Builder("extreme", base="floating", root="body_0000", root_inertia=rods[0], gravity=gravity)
         armature = self.rotor * self.mass * self.length**2 / 3
         for k in range(1, self.bodies):
             builder.link(
                 f"body_{k:04}",
                 parent="body_0000" if self.leaves else f"body_{k - 1:04}",
-                joint=Revolute([0.0, np.cos(k % 2 * self.parallel), np.sin(k % 2 * self.parallel)]),
+                joint=tw.Revolute([0.0, np.cos(k % 2 * self.parallel), np.sin(k % 2 * self.parallel)]),
                 placement=self._placement(k),
                 inertia=rods[k],
                 armature=armature,
@@ -129,20 +92,20 @@ class Recipe:
         unit[LINEAR], flying[LINEAR] = self.length, self.base_speed
         return State(q, v * unit * self.speed * flying / self.time, a * unit / self.time**2)
 
-    def _body(self, k: int) -> SpatialInertia:
+    def _body(self, k: int) -> tw.SpatialInertia:
         """Return the inertia of a rod along −z that is round but for `edge`, its centre a little off the line."""
         factor = (self.light if k == self.bodies // 2 else 1.0) * (self.tip if k == self.bodies - 1 else 1.0)
         mass = self.mass * self.mass_ratio ** (k / max(self.bodies - 1, 1)) * factor
         if mass == 0:
-            return SpatialInertia.zero()
+            return tw.SpatialInertia.zero()
         x, y = 1.0, 0.1
         moments = mass * self.length**2 / 12 * np.array([x, (x + y) * (1 - self.edge), y])
-        return SpatialInertia(mass, np.array([0.02, 0.01, -0.5]) * self.length, np.diag(moments))
+        return tw.SpatialInertia(mass, np.array([0.02, 0.01, -0.5]) * self.length, np.diag(moments))
 
-    def _placement(self, k: int) -> SE3:
+    def _placement(self, k: int) -> tw.SE3:
         """Return where joint k sits on its parent: at the end of the rod, at the base all around it."""
         if self.leaves:
             turn = 2 * np.pi * k / self.bodies
-            return SE3(np.eye(3), np.array([np.cos(turn), np.sin(turn), 0.0]) * self.length / 2)
+            return tw.SE3(np.eye(3), np.array([np.cos(turn), np.sin(turn), 0.0]) * self.length / 2)
         meets = self.parallel != 1.0 and k % 2 == 0
-        return SE3(np.eye(3), np.array([0.0, 0.0, 0.0 if meets else -1.0]) * self.length)
+        return tw.SE3(np.eye(3), np.array([0.0, 0.0, 0.0 if meets else -1.0]) * self.length)

@@ -5,8 +5,6 @@ free of units: the same robot in millimetres and grams has the same. And each is
 not the sum, so that an entry that cancels to zero is not called wrong in all its digits.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -15,46 +13,30 @@ import numpy as np
 import twistwrench as tw
 from twistwrench import newton_euler_3d as ne
 from twistwrench.arrays import Array
-from twistwrench.errors import SingularError
-from twistwrench.model import Model
 from twistwrench.newton_euler_3d.bodies import Body, bodies_in_world
 from twistwrench.newton_euler_3d.forces import virtual_power
 from twistwrench.newton_euler_3d.state import take
 
-from ..trade.numbers import as_long_double
+from ..numbers import as_long_double
 from .robots import State
 
-__all__ = ["Truth", "size_of_accelerations", "sizes", "truth"]
-
-WHOLE = 40
-"""Of a robot with more bodies only some columns of M are compared: all of them would take hours."""
-
-COLUMNS = (0, 5, 6, -1)
-"""These columns: two of the base, the first joint, the last."""
-
-ENOUGH = 1e-25
-"""The last correction of q̈, relative to its size, at which it counts as known."""
+WHOLE = 40  # of a robot with more bodies only some columns of M are compared: all of them would take hours
+COLUMNS = (0, 5, 6, -1)  # these: two of the base, the first joint, the last
+ENOUGH = 1e-25  # the last correction of q̈, relative to its size, at which it counts as known
 
 
 @dataclass(frozen=True)
 class Truth:
     """Right values as mpmath numbers, and the sizes that an error in each entry is divided by.
 
-    Attributes
-    ----------
-    right : dict of str to ndarray or None
-        ``tau``: torques of the motion. ``steered``: accelerations under these torques, rounded to doubles; ``pushed``:
-        under torques of any sign and as large as the terms of these; None where there is no right value. ``M``:
-        (columns of) the mass matrix. ``A_G``: the centroidal map. ``bias``: J̇v of the last body's frame.
-    sizes : dict of str to ndarray
-        By the same names.
-    torques : dict of str to ndarray
-        ``steered`` and ``pushed``, as doubles.
+    By name: ``tau``, torques of the motion; ``steered``, accelerations under these torques, rounded to doubles;
+    ``pushed``, under torques of any sign and as large as the terms of these; None where there is no right value; ``M``,
+    (columns of) the mass matrix; ``A_G``, the centroidal map; ``bias``, J̇v of the last body's frame.
     """
 
     right: dict[str, Array | None]
     sizes: dict[str, Any]
-    torques: dict[str, Array]
+    torques: dict[str, Array]  # ``steered`` and ``pushed``, as doubles
 
     def error(self, name: str, answer: Array) -> float:
         """Return the largest relative error of finite numbers; infinite where there is no right value."""
@@ -68,7 +50,7 @@ class Truth:
         return float(np.where(nothing, np.where(off == 0, 0.0, np.inf), off / np.where(nothing, 1, size)).max())
 
 
-def truth(model: Model, s: State) -> Truth:
+def truth(model: tw.Model, s: State) -> Truth:
     """Return the right values, in ``mpmath.mp.dps`` digits."""
     exact = State(*(ne.as_mpmath(x) for x in s))
     given = take(model, q=exact.q, v=exact.v, a=exact.a)
@@ -78,27 +60,19 @@ def truth(model: Model, s: State) -> Truth:
     drives = np.random.default_rng(1).standard_normal(model.nv)
     torques = {"steered": tau.astype(np.float64), "pushed": drives * terms}
     qdd = {name: accelerations(model, s, x) for name, x in torques.items()}
-    of_qdd = {name: _size_of_accelerations(model, s, x, qdd[name], np.sqrt(own)) for name, x in torques.items()}
-    return Truth(
-        {
-            "tau": tau,
-            "M": mass_matrix(model, exact.q),
-            "A_G": ne.centroidal_map(model, exact.q),
-            "bias": ne.frame_bias_acceleration(model, exact.q, exact.v, model.frame_names[-1], "local_world_aligned"),
-            **qdd,
-        },
-        {
-            "tau": terms,
-            "M": np.sqrt(own)[:, None] * np.sqrt(own),
-            "A_G": momentum,
-            "bias": _size_of_bias(bodies[-1], s.v),
-            **of_qdd,
-        },
-        torques,
-    )
+    weight = np.sqrt(own)
+    right = {
+        "tau": tau,
+        "M": mass_matrix(model, exact.q),
+        "A_G": ne.centroidal_map(model, exact.q),
+        "bias": ne.frame_bias_acceleration(model, exact.q, exact.v, model.frame_names[-1], "local_world_aligned"),
+    }
+    known = {"tau": terms, "M": weight[:, None] * weight, "A_G": momentum, "bias": _size_of_bias(bodies[-1], s.v)}
+    of_qdd = {name: _size_of_accelerations(model, s, x, qdd[name], weight) for name, x in torques.items()}
+    return Truth(right | qdd, known | of_qdd, torques)
 
 
-def mass_matrix(model: Model, q: Array) -> Array:
+def mass_matrix(model: tw.Model, q: Array) -> Array:
     """Return M; of a long robot those `COLUMNS`, each the torques of a unit acceleration without weight."""
     if model.nbodies <= WHOLE:
         return ne.mass_matrix(model, q)
@@ -106,7 +80,7 @@ def mass_matrix(model: Model, q: Array) -> Array:
     return np.stack([ne.inverse_dynamics(light, q, zero, ne.as_mpmath(e)) for e in np.eye(model.nv)[list(COLUMNS)]], 1)
 
 
-def accelerations(model: Model, s: State, torques: Array) -> Array | None:
+def accelerations(model: tw.Model, s: State, torques: Array) -> Array | None:
     """Return the q̈ at which inverse dynamics returns exactly these torques, or None where M is singular.
 
     Newton's method: the residual of the torques is solved for with M in long doubles, and each step gains as many
@@ -117,7 +91,7 @@ def accelerations(model: Model, s: State, torques: Array) -> Array | None:
     while True:
         try:
             step = _divided(model, s.q, tau - ne.inverse_dynamics(model, q, v, qdd))
-        except SingularError:
+        except tw.SingularError:
             break
         qdd = qdd + step
         now = float(abs(step).max() / abs(qdd).max()) if qdd.any() else 0.0
@@ -128,11 +102,11 @@ def accelerations(model: Model, s: State, torques: Array) -> Array | None:
         last = now
     try:
         return ne.forward_dynamics(model, q, v, tau)
-    except SingularError:
+    except tw.SingularError:
         return None
 
 
-def _divided(model: Model, q: Array, tau: Array) -> Array:
+def _divided(model: tw.Model, q: Array, tau: Array) -> Array:
     """Return M⁻¹ τ to a few digits, of mpmath numbers."""
     unit = abs(tau).max()
     if unit == 0:
@@ -143,7 +117,7 @@ def _divided(model: Model, q: Array, tau: Array) -> Array:
     return step
 
 
-def _size_of_accelerations(model: Model, s: State, torques: Array, qdd: Array | None, weight: Array) -> Any:
+def _size_of_accelerations(model: tw.Model, s: State, torques: Array, qdd: Array | None, weight: Array) -> Any:
     """Return the sizes of the entries of q̈, such that each counts by the root of the inertia of its joint.
 
     The largest of three: of this q̈, of that without torques, and of their difference.
@@ -152,26 +126,19 @@ def _size_of_accelerations(model: Model, s: State, torques: Array, qdd: Array | 
         return None
     try:
         falling = ne.as_mpmath(tw.aba(model, model.normalize(s.q.astype(np.longdouble)), s.v, 0 * torques))
-    except SingularError:
+    except tw.SingularError:
         falling = 0 * qdd
     return size_of_accelerations(qdd, falling, weight)
 
 
 def size_of_accelerations(qdd: Array, falling: Array, weight: Array) -> Array:
-    """Return the sizes of the entries of q̈, shape (..., nv), where the robot falls without torques as said.
-
-    Parameters
-    ----------
-    qdd, falling : ndarray, shape (..., nv)
-    weight : ndarray, shape (..., nv)
-        The root of each joint's inertia.
-    """
+    """Return the sizes of the entries of q̈, shape (..., nv), each weighed by the root of its joint's inertia."""
     weighed = np.stack([weight * abs(x) for x in (qdd, falling, qdd - falling)]).astype(np.float64)
     size: Array = weighed.max(axis=(0, -1))[..., None] / np.where(weight > 0, weight, 1)
     return size
 
 
-def sizes(model: Model, bodies: list[Body], s: State) -> tuple[Array, Array, Array]:
+def sizes(model: tw.Model, bodies: list[Body], s: State) -> tuple[Array, Array, Array]:
     """Return for each entry of v: the size of the terms of τ, its own inertia, the sizes of its column of A_G.
 
     τ_k is a sum over bodies, of ∂ċ/∂v_k · m (c̈ − g) + ∂ω/∂v_k · (I α + ω × I ω): here every vector is replaced by its
@@ -196,16 +163,9 @@ def sizes(model: Model, bodies: list[Body], s: State) -> tuple[Array, Array, Arr
 def _size_of_bias(body: Body, v: Array) -> Array:
     """Return the sizes of the terms of J̇v at a body's origin: of the three angular entries, and of the linear ones."""
     at = body.hinges
-    turn, slide, omega, arm, rate = (
-        _length(x.astype(np.float64))
-        for x in (
-            at.turn,
-            at.slide,
-            at.omega,
-            body.origin[:, None] - at.origin,
-            body.velocity[:, None] - at.velocity,
-        )
-    )
+    arms, rates = body.origin[:, None] - at.origin, body.velocity[:, None] - at.velocity
+    parts = at.turn, at.slide, at.omega, arms, rates
+    turn, slide, omega, arm, rate = (_length(x.astype(np.float64)) for x in parts)
     rates = abs(v[at.index])
     angular = (omega * turn * rates).sum()
     linear = ((omega * (slide + turn * arm) + turn * rate) * rates).sum()
