@@ -15,7 +15,7 @@ from .domains import Domain
 from .errors import CourseError
 from .exercise import Part
 
-__all__ = ["case", "cases", "every_case", "further_cases", "special_cases"]
+__all__ = ["Arguments", "case", "cases", "every_case", "further_cases", "special_cases"]
 
 Arguments = tuple[Any, ...]
 

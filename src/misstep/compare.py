@@ -11,18 +11,8 @@ from numpy.typing import NDArray
 from .exercise import Part, Quantity
 
 __all__ = [
-    "FLOOR",
-    "Array",
-    "Value",
-    "agree",
-    "close",
-    "copied_results",
-    "is_one_array",
-    "pieces",
-    "plain",
-    "to_do",
-    "unchanged",
-    "values",
+    *("FLOOR", "Array", "Value", "agree", "close", "copied_results", "differing", "is_one_array"),
+    *("pieces", "plain", "to_do", "unchanged", "values"),
 ]
 
 Array = NDArray[Any]
@@ -36,9 +26,6 @@ LARGEST_INTEGER = 2**1023
 
 DEEPEST = 20
 """Lists in lists of an answer; a list may also be in itself."""
-
-Known = dict[int, tuple[Any, Any]]
-"""By the identity of an object: the object, and what it has become."""
 
 
 class Value(NamedTuple):
@@ -58,36 +45,34 @@ def plain(answer: Any) -> Any:
     return _plain(answer, {}, 0)
 
 
-def _plain(x: Any, known: Known, depth: int) -> Any:
+def _plain(x: Any, known: dict[int, tuple[Any, Any]], depth: int) -> Any:
+    """Convert an object once; `known` has, by its identity, the object itself and what it has become."""
     kind = type(x)
     if kind in (type(None), type(...), bool, float, complex, str) or issubclass(kind, np.number | np.bool_):
         return x
-    if kind is int or (kind is np.ndarray and x.dtype.kind in "biufc"):
-        return x if kind is not int or abs(x) < LARGEST_INTEGER else _stand_in(x)
+    if (kind is int and abs(x) < LARGEST_INTEGER) or (kind is np.ndarray and x.dtype.kind in "biufc"):
+        return x
     if id(x) not in known:
-        known[id(x)] = x, _stand_in(x)  # what it is inside itself; x is kept, and with it its identity
-        known[id(x)] = x, _converted(x, known, depth)
+        stand_in = type(kind.__name__, (), {})()
+        known[id(x)] = x, stand_in  # what it is inside itself
+        try:
+            found = None if kind is int else _converted(x, known, depth)
+        except Exception:
+            found = None
+        known[id(x)] = x, stand_in if found is None else found
     return known[id(x)][1]
 
 
-def _converted(x: Any, known: Known, depth: int) -> Any:
+def _converted(x: Any, known: dict[int, tuple[Any, Any]], depth: int) -> Any:
     kind = type(x)
-    try:
-        if issubclass(kind, str):
-            return str.__str__(x)
-        if issubclass(kind, list | tuple | Sequence) and not issubclass(kind, bytes) and depth < DEEPEST:
-            items = [_plain(item, known, depth + 1) for item in x]
-            same = kind in (list, tuple) and all(a is b for a, b in zip(items, x))
-            return x if same else tuple(items) if issubclass(kind, tuple) else items
-        array = _array(x)
-    except Exception:
-        array = None
-    return _stand_in(x) if array is None else array
-
-
-def _stand_in(x: Any) -> Any:
-    """Return an empty object of a class that has the name of the class of another object."""
-    return type(type(x).__name__, (), {})()
+    if issubclass(kind, str):
+        return str.__str__(x)
+    if not issubclass(kind, list | tuple | Sequence) or issubclass(kind, bytes) or depth >= DEEPEST:
+        return _array(x)
+    items = [_plain(item, known, depth + 1) for item in x]
+    if kind in (list, tuple) and all(a is b for a, b in zip(items, x)):
+        return x
+    return tuple(items) if issubclass(kind, tuple) else items
 
 
 def to_do(answer: Any) -> bool:
@@ -143,6 +128,15 @@ def close(a: Value, b: Value, rtol: float) -> bool:
         return False
     scale = np.abs(b.array[np.isfinite(b.array)]).max(initial=FLOOR)
     return bool((np.abs(a.array[finite] - b.array[finite]) <= rtol * scale).all())
+
+
+def differing(a: Array, b: Array, rtol: float) -> Array:
+    """Return which entries of an array differ from those of another of its shape, by a part of its largest entry."""
+    if a.dtype.kind == "b" or b.dtype.kind == "b":
+        return np.asarray(a != b)
+    within = rtol * np.abs(b[np.isfinite(b)]).max(initial=FLOOR)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~((np.abs(a - b) <= within) | (a == b) | (np.isnan(a) & np.isnan(b))))
 
 
 def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bool:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .calls import call_or_none, cheapest_case, keeps_arguments
-from .compare import FLOOR, Array, agree, close, values
+from .compare import Array, agree, close, differing, values
 from .exercise import Part
 
 __all__ = ["Evidence"]
@@ -17,11 +17,8 @@ __all__ = ["Evidence"]
 Function = Callable[..., Any]
 Arguments = tuple[Any, ...]
 
-FEW_NUMBERS = 6
-"""Numbers of an answer without arguments: a change of a number meets so few by chance."""
-
-MANY_TRUTHS = 64
-"""Cases that tell one condition from another."""
+FEW_NUMBERS = 6  # of an answer without arguments: a change of a number meets so few by chance
+MANY_TRUTHS = 64  # cases that tell one condition from another
 
 
 class Evidence:
@@ -115,9 +112,7 @@ class Evidence:
                 return None
             if a.array.dtype.kind != "f" or b.array.dtype.kind != "f":
                 return None
-            with np.errstate(invalid="ignore"):
-                within = self.part.rtol * np.abs(b.array).max(initial=FLOOR)
-                found.append(~(np.abs(a.array - b.array) <= within).ravel())
+            found.append(differing(a.array, b.array, self.part.rtol).ravel())
         return np.concatenate(found)
 
     @cached_property

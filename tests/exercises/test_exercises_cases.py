@@ -8,8 +8,8 @@ import pytest
 
 import twistwrench as tw
 from misstep.cases import cases, further_cases
+from misstep.isolation import judged
 from misstep.judge import judge
-from misstep.processes.isolation import judged
 from twistwrench.exercises import case
 from twistwrench.exercises.chapter import COURSE
 from twistwrench.exercises.stopwatch import seconds

@@ -3,9 +3,10 @@
 import pytest
 
 import twistwrench as tw
-from misstep.errors import CourseError, UnknownName
-from misstep.folder.formulas import difference, judge_formula, typed
-from misstep.folder.workbook import Workbook
+from misstep.errors import CourseError
+from misstep.formulas import difference, judge_formula, typed
+from misstep.workbook import Workbook
+from twistwrench.errors import NameNotFound
 from twistwrench.exercises import check, start
 from twistwrench.exercises.chapter import COURSE
 
@@ -74,7 +75,7 @@ def test_what_cannot_be_read_is_explained(name, formula, said):
 def test_a_formula_is_checked_in_a_cell():
     assert check("49.0.2", act="R*x + p", language="en").right
     assert "the translation has the wrong sign" in repr(check("49.0.2", act="R*x - p", language="en"))
-    with pytest.raises(UnknownName, match="adjoint"):
+    with pytest.raises(NameNotFound, match="adjoint"):
         check("49.0.3", adjont="T")
 
 

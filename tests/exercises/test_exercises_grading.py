@@ -9,12 +9,13 @@ from xml.etree import ElementTree
 
 import pytest
 
-from misstep.errors import CourseError, UnknownName
-from misstep.folder import skeletons
-from misstep.grading.grading import grade
-from misstep.grading.sheets import as_csv, as_html, as_junit, as_table
-from misstep.grading.submissions import submissions
+from misstep import skeletons
+from misstep.errors import CourseError
+from misstep.grading import grade
+from misstep.sheets import as_csv, as_html, as_junit, as_table
+from misstep.submissions import submissions
 from twistwrench.cli import main
+from twistwrench.errors import NameNotFound
 from twistwrench.exercises import hint, solution, start
 from twistwrench.exercises.chapter import COURSE
 
@@ -93,7 +94,7 @@ def test_the_page_has_the_points_and_the_words_beside_the_model_answer(found):
         assert "<script" not in page
         links = re.findall(r'href="#([^"]+)"', page)
         assert len(links) == sum(
-            any(v.state == "wrong" for v in m.verdicts.values()) for x in found for m in x.marks.values()
+            any(v.state == "wrong" for v in m.functions.values()) for x in found for m in x.marks.values()
         )
         assert all(page.count(f'id="{link}"') == 1 for link in links)
     assert "--seed 5" in as_html(found, 5, "en")
@@ -291,5 +292,5 @@ def test_a_negative_number_is_told_in_a_sentence(room, capsys, option):
 def test_what_is_not_there_is_an_error(room, tmp_path):
     with pytest.raises(CourseError, match="expected the folder of a student"):
         grade(COURSE, [tmp_path / "nobody"])
-    with pytest.raises(UnknownName, match="exercise or section"):
+    with pytest.raises(NameNotFound, match="exercise or section"):
         grade(COURSE, [room], only=["49.60"])

@@ -15,25 +15,30 @@ from os import PathLike
 from pathlib import Path
 from typing import IO, Any
 
-from ..cases import cases
-from ..course import Course
-from ..errors import CourseError
-from ..exercise import Exercise, Part
-from ..failing import Case, failing_case
-from ..folder.workbook import Workbook, content
-from ..judge import Verdict, judge
-from ..messages import message
-from ..rules import is_ours, is_reference, reference
-from ..state import at_line
-from ..text import Language, Text
+from .cases import cases
+from .course import Course
+from .errors import CourseError
+from .exercise import Exercise, Part
+from .judge import at_line
 from .process import Died, Process
+from .rules import is_ours, is_reference
+from .text import Language, Text, say
 from .transfer import sent
-from .worker import NOT_RECEIVED, not_judged
+from .verdict import Verdict, failing_case, headed
+from .workbook import Workbook, content
+from .worker import NOT_RECEIVED
 
-__all__ = ["TIME_LIMIT", "IsolatedWorkbook", "drawn", "judged", "opened"]
+__all__ = ["TIME_LIMIT_S", "drawn", "judged", "not_judged", "opened"]
 
-TIME_LIMIT = 10.0
+TIME_LIMIT_S = 10.0
 """Seconds for one call of a function, and for reading a file. The longest of the references takes 0.1 s."""
+
+ENDLESS = Text("It did not finish in {s:g} s: a loop that never ends?", "{s:g} 秒内没有结束：是不是死循环？")
+ENDED = Text("It ended the whole Python process.", "它使整个 Python 进程终止了。")
+ENDED_IN = Text(
+    "{name} does so if it is given the number of a joint or frame that the model does not have: print the number.",
+    "把模型中没有的关节或坐标系的编号交给 {name}，它就会这样：请打印这个编号。",
+)
 
 
 def drawn(seed: int | None) -> int:
@@ -49,11 +54,9 @@ def drawn(seed: int | None) -> int:
     return secrets.randbelow(10**6) if seed is None else seed
 
 
-def _is_possible(time_limit: float) -> bool:
-    """Whether there is another process; a browser has none."""
-    if not time_limit >= 0:
-        raise CourseError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
-    return bool(time_limit and sys.executable) and sys.platform != "emscripten"
+def not_judged(exercise: Exercise, part: Part, why: object) -> Verdict:
+    """Return the verdict on a function that the check itself fails on."""
+    return headed(exercise, part, say("It could not be judged: {why}", "无法评判：{why}", why=why))
 
 
 @contextmanager
@@ -63,8 +66,8 @@ def opened(
     *,
     language: Language | None = None,
     seed: int | None = None,
-    time_limit: float = TIME_LIMIT,
-    quiet: bool = False,
+    time_limit: float = TIME_LIMIT_S,
+    printed: IO[Any] | None = sys.__stderr__,
     files: Mapping[str, Path] | None = None,
 ) -> Iterator[Workbook]:
     """Open a folder that was started before, and close it again.
@@ -79,8 +82,8 @@ def opened(
         Of the random cases; drawn anew unless given.
     time_limit : float
         Seconds for one call of a student's function; 0 for none, and no other process, as a debugger needs it.
-    quiet : bool
-        Drop what the other process prints.
+    printed : file, optional
+        Where what the other process prints goes; nowhere for None.
     files : mapping, optional
         The files that have another name than `start` has given them, by section.
 
@@ -88,11 +91,13 @@ def opened(
     ------
     Workbook
     """
-    if not _is_possible(time_limit):
+    if not time_limit >= 0:
+        raise CourseError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
+    if not time_limit or not sys.executable or sys.platform == "emscripten":  # a browser has no other process
         yield Workbook(course, folder, language=language, seed=drawn(seed), files=files)
         return
-    book = IsolatedWorkbook(course, folder, language=language, seed=drawn(seed), files=files)
-    book.time_limit, book.printed = time_limit, None if quiet else sys.__stderr__
+    book = _Isolated(course, folder, language=language, seed=drawn(seed), files=files)
+    book.time_limit, book.printed = time_limit, printed
     try:
         yield book
     finally:
@@ -120,41 +125,20 @@ def judged(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed
     -------
     Verdict
     """
-    if is_reference(part, function):
-        return Verdict("wrong", (message("head", id=exercise.id, name=part.name), reference(part)))
-    data = sent(function) if _is_possible(time_limit) else None
-    if data is None:
-        return judge(exercise, part, function, seed=seed)
-    book = IsolatedWorkbook(exercise.course, ".", seed=seed)
-    book.time_limit, book.function = time_limit, (base64.b64encode(data).decode(),)
     with tempfile.TemporaryFile() as printed:
-        book.printed = printed
         try:
-            return book.verdict(exercise, part)
-        except _NotReceived:
-            return judge(exercise, part, function, seed=seed)
+            with opened(exercise.course, ".", seed=seed, time_limit=time_limit, printed=printed) as book:
+                return book.judge_function(exercise, part, function)
         finally:
-            book.close()
             printed.seek(0)
             sys.stdout.write(printed.read().decode(errors="replace"))
 
 
-class _NotReceived(Exception):
-    """The other process cannot make a function again."""
-
-
-class IsolatedWorkbook(Workbook):
+class _Isolated(Workbook):
     """A folder whose files are read and judged in another process; the arguments are those of `Workbook`."""
 
-    time_limit = TIME_LIMIT
-    """Seconds for one call of a student's function."""
-
+    time_limit = TIME_LIMIT_S
     printed: IO[Any] | None = None
-    """Where what the other process prints goes; nowhere unless given."""
-
-    function: tuple[str, ...] = ()
-    """A function that is sent to be judged, in place of one of a file."""
-
     is_closed = False
     _process: Process | None = None
 
@@ -163,14 +147,20 @@ class IsolatedWorkbook(Workbook):
         found = self._ask("words", exercise.id)
         return found if isinstance(found, str) else None
 
-    def _judge(self, exercise: Exercise, part: Part) -> Verdict:
+    def judge_function(self, exercise: Exercise, part: Part, function: Callable[..., Any]) -> Verdict:
+        """Judge a function that is sent to the other process."""
+        data = None if is_reference(part, function) else sent(function)
+        found = None if data is None else self._judge(exercise, part, base64.b64encode(data).decode())
+        return super().judge_function(exercise, part, function) if found is None else found
+
+    def _judge(self, exercise: Exercise, part: Part, *function: str) -> Any:
+        why = None
         for what in ("verdict", "plain verdict"):  # at a change that the search tries, a library may end the process
-            found = self._ask(what, part.name, *self.function)
-            if isinstance(found, Verdict):
-                return found
-            if found == NOT_RECEIVED:
-                raise _NotReceived
-        return not_judged(exercise, part, message("ended").en)
+            found = self._ask(what, part.name, *function)
+            if isinstance(found, Verdict) or found == NOT_RECEIVED:
+                return found if isinstance(found, Verdict) else None
+            why = found or why
+        return not_judged(exercise, part, why or ENDED.en)
 
     def close(self) -> None:
         """End the other process, and start no new one."""
@@ -182,26 +172,27 @@ class IsolatedWorkbook(Workbook):
         if process is not None:
             process.close()
 
+    def _started(self) -> Process:
+        files = [[section, str(path)] for section, path in self.files.items()]
+        states = [[known, verdict.state] for known, verdict in self._verdicts.items()]
+        task = {"course": self.course.module, "folder": str(self.folder), "seed": self.seed, "files": files}
+        task |= {"states": states, "unreadable": [[k, x] for k, x in self._modules.items() if isinstance(x, Text)]}
+        return Process(task, self.time_limit, self.printed)
+
     def _ask(self, what: str, name: str, *function: str) -> Any:
         """Return the answer of the other process. Where it had to stop, note at what, and start a new one."""
-        unreadable: dict[str, Text] = {k: x for k, x in self._modules.items() if isinstance(x, Text)}
         while not self.is_closed:
-            if self._process is None:
-                task = {"course": self.course.module, "folder": str(self.folder), "seed": self.seed}
-                files = [[section, str(path)] for section, path in self.files.items()]
-                states = [[known, verdict.state] for known, verdict in self._verdicts.items()]
-                task |= {"files": files, "states": states, "unreadable": [*map(list, unreadable.items())]}
-                self._process = Process(task, self.time_limit, self.printed)
+            self._process = self._process or self._started()
             try:
                 answer, borrowed = self._process.ask(what, name, *function)
             except Died as died:
-                self._end()
+                self._process = None
                 if died.at is None or (what == "verdict" and died.at == name and not died.late):
                     return None  # the search may have ended it
                 lines = self._explained(died)
                 if sections := [section for section in self.course.sections if self.path(section).name == died.at]:
                     text = Text(*("\n".join(line.of(k) for line in lines) for k in ("en", "zh")))
-                    self._modules[sections[0]] = unreadable[sections[0]] = text
+                    self._modules[sections[0]] = text
                 else:
                     self._verdicts[died.at] = self._verdict_on(died, lines)
                 if died.at == name:
@@ -215,19 +206,17 @@ class IsolatedWorkbook(Workbook):
         """Return the verdict on a function that did not give an answer, with the case that it was called with."""
         exercise, part = self.course.find_part(str(died.at))
         if exercise.needs and not died.late:
-            lines.insert(1, message("ended in", name=exercise.needs.title()))
+            lines.insert(1, ENDED_IN.fill(name=exercise.needs.title()))
         tried = cases(part, self.seed)
         k = min(max(died.call, 0), len(tried) - 1)  # further calls look for what is wrong
-        case: Case = failing_case(exercise, part, k, self.seed, tried[k])
-        return Verdict("wrong", (message("head", id=exercise.id, name=part.name), *lines), (), case)
+        return headed(exercise, part, *lines, case=failing_case(exercise, part, k, self.seed, tried[k]))
 
     def _explained(self, died: Died) -> list[Text]:
         """Return why the process ended, and at which line of the student's."""
-        lines = [message("endless", seconds=f"{self.time_limit:g}") if died.late else message("ended")]
+        lines = [ENDLESS.fill(s=self.time_limit) if died.late else ENDED]
         for path, number in re.findall(r'File "(.+)", line (\d+) in', died.trace):
             if not is_ours(path) and (line := _line(path, int(number))):
-                lines += [*at_line(path, number), Text("    " + line, "    " + line)]
-                break
+                return [*lines, *at_line(path, number, line)]
         return lines
 
 

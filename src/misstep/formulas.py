@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from ..cases import cases
-from ..errors import CourseError, UnknownName
-from ..exercise import Exercise, Part
-from ..judge import Verdict, judge
-from ..messages import message
-from ..text import Text
+from .cases import cases
+from .errors import CourseError
+from .exercise import Exercise, Part
+from .judge import judge
+from .text import Text
+from .verdict import Verdict, headed
 
 __all__ = ["difference", "judge_formula", "typed"]
 
@@ -30,9 +30,9 @@ def judge_formula(exercise: Exercise, part: Part, formula: str, *, seed: int = 0
     try:
         verdict = judge(exercise, part, typed(part, formula), seed=seed)
         left = difference(part, formula) if verdict.state == "done" else None
-    except (CourseError, UnknownName) as error:
-        left, verdict = Text(str(error), str(error)), Verdict("wrong")
-    return verdict if left is None else Verdict("wrong", (message("head", id=exercise.id, name=part.name), left))
+    except CourseError as error:
+        left = Text(str(error), str(error))
+    return verdict if left is None else headed(exercise, part, left)
 
 
 def typed(part: Part, formula: str) -> Callable[..., Any]:
@@ -54,15 +54,13 @@ def typed(part: Part, formula: str) -> Callable[..., Any]:
     Raises
     ------
     CourseError
-        If SymPy is not installed, the formula cannot be read, or the exercise asks for more than a formula.
-    UnknownName
-        If a name in it is not that of an argument.
+        If SymPy is not installed, the formula cannot be read or has an unknown name, or the exercise asks for more.
     """
     sympy = _sympy()
     symbols, results = _read(part, formula)
     flat = [entry for value in symbols.values() for entry in _entries(value)]
     compute = sympy.lambdify(flat, [sympy.Matrix(_entries(x)) for x in results], "numpy")
-    shapes = [np.shape(value) for value in _answers(part, part.solution, cases(part, 0)[0])]
+    shapes = [np.shape(value) for value in _answers(part, cases(part, 0)[0])]
 
     def function(*arguments: Any) -> Any:
         numbers = [float(x) for value in arguments for x in np.ravel(value)]
@@ -79,7 +77,7 @@ def difference(part: Part, formula: str) -> Text | None:
     sympy = _sympy()
     symbols, results = _read(part, formula)
     try:
-        right = _answers(part, part.solution, tuple(_as_array(value) for value in symbols.values()))
+        right = _answers(part, tuple(map(_as_array, symbols.values())))
         pairs = [(x, y) for one, other in zip(results, right) for x, y in zip(_entries(one), np.ravel(other))]
         left = [sympy.simplify(sympy.nsimplify(x - y, rational=True)) for x, y in pairs]
     except (ArithmeticError, AttributeError, TypeError, ValueError):
@@ -97,29 +95,31 @@ def _sympy() -> Any:
 
 def _read(part: Part, formula: str) -> tuple[dict[str, Any], tuple[Any, ...]]:
     """Return the arguments as symbols, and the results as expressions of them."""
-    sympy = _sympy()
-    names = [name.partition("=")[0] for name in part.arguments.split(", ")]
+    sympy, n = _sympy(), len(part.returns)
     tried = cases(part, 0)
     shapes = {tuple(np.shape(x) if _is_number(x) else None for x in arguments) for arguments in tried}
     if len(shapes) != 1 or None in (shape := shapes.pop()) or not tried[0]:
         raise CourseError(f"{part.name}: the answer is not a formula in its arguments ({part.arguments or 'none'})")
-    symbols = {name: _symbol(name, form) for name, form in zip(names, shape)}
-    helpers = {"cross": lambda a, b: a.cross(b), "skew": lambda a: sympy.Matrix(3, 3, lambda i, j: _levi(a, i, j))}
-    helpers |= {"stack": lambda *blocks: sympy.Matrix.vstack(*blocks), "Matrix": sympy.Matrix}
-    helpers |= {"block": lambda rows: sympy.Matrix(sympy.BlockMatrix(rows)), "eye": sympy.eye, "zeros": sympy.zeros}
+    symbols = {name: _symbol(name, form or ()) for name, form in zip(part.names, shape)}
+    functions = {
+        "cross": lambda a, b: a.cross(b),
+        "skew": lambda a: sympy.Matrix([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]]),
+        "stack": lambda *blocks: sympy.Matrix.vstack(*blocks),
+        "block": lambda rows: sympy.Matrix(sympy.BlockMatrix(rows)),
+    }
+    names = {name: getattr(sympy, name) for name in ("Matrix", "eye", "zeros")}
     try:
-        found = sympy.sympify(formula, locals={**helpers, **symbols})
+        found = sympy.sympify(formula, locals={**functions, **names, **symbols})
     except (sympy.SympifyError, SyntaxError, TypeError, AttributeError, ValueError) as error:
         raise CourseError(f"{part.name}: the formula {formula!r} cannot be read: {error}") from None
-    results = tuple(found) if isinstance(found, tuple | sympy.Tuple) and len(part.returns) > 1 else (found,)
-    if len(results) != len(part.returns):
-        raise CourseError(f"{part.name}: expected {len(part.returns)} results with a comma between, got {len(results)}")
+    results = tuple(found) if isinstance(found, tuple | sympy.Tuple) and n > 1 else (found,)
+    if len(results) != n:
+        raise CourseError(f"{part.name}: expected {n} results with a comma between, got {len(results)}")
     known = {entry for value in symbols.values() for entry in _entries(value)}
-    unknown = {str(s) for x in results for e in _entries(x) for s in sympy.sympify(e).free_symbols if s not in known}
-    if unknown:
-        raise UnknownName(
-            f"{part.name}: unknown in the formula: {', '.join(sorted(unknown))}; known: {', '.join(names)}"
-        )
+    free = {str(s) for x in results for e in _entries(x) for s in sympy.sympify(e).free_symbols if s not in known}
+    if free:
+        text = f"unknown in the formula: {', '.join(sorted(free))}; known: {', '.join(part.names)}"
+        raise CourseError(f"{part.name}: {text}")
     return symbols, results
 
 
@@ -127,17 +127,12 @@ def _is_number(x: Any) -> bool:
     return isinstance(x, np.ndarray | float | int) and np.ndim(x) <= 2
 
 
-def _symbol(name: str, shape: tuple[int, ...] | None) -> Any:
+def _symbol(name: str, shape: tuple[int, ...]) -> Any:
     sympy = _sympy()
     if not shape:
         return sympy.Symbol(name, real=True)
     rows, columns = (*shape, 1)[:2]
     return sympy.Matrix(rows, columns, lambda i, j: sympy.Symbol(f"{name}_{i}{j if len(shape) > 1 else ''}", real=True))
-
-
-def _levi(a: Any, i: int, j: int) -> Any:
-    """Return an entry of the cross matrix of a."""
-    return 0 if i == j else a[3 - i - j] * (1 if (j - i) % 3 == 2 else -1)
 
 
 def _entries(value: Any) -> list[Any]:
@@ -153,7 +148,7 @@ def _as_array(value: Any) -> Any:
     return array[:, 0] if array.shape[1] == 1 else array
 
 
-def _answers(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the results of a function as a tuple."""
-    found = part.value(function, arguments)
+def _answers(part: Part, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the right results as a tuple."""
+    found = part.value(part.solution, arguments)
     return tuple(found) if len(part.returns) > 1 else (found,)
