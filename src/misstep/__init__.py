@@ -21,10 +21,8 @@ faults       wrong functions, made out of right ones
 verdict      the record of a judged function: its message, and the failing case
 program      a function as a tree that can be changed, and the values of its expressions
 grammar      small edits of a program, rule by rule
-differences  how wrong numbers differ from right ones
-tracing      the first line that computes what no right solution has
-evidence     a wrong answer: which results are wrong, and whether something explains them
-search       one search for what explains it
+differences  how wrong numbers differ from right ones, and the first wrong line
+search       a wrong answer as evidence, and one search for what explains it
 diagnose     the explanations in order, and one that is reported
 rules        what an exercise forbids
 domains      what an argument may be

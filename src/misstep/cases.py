@@ -14,23 +14,17 @@ from .course import Course
 from .domains import Domain
 from .errors import CourseError
 from .exercise import Part
+from .search import Arguments
 
-__all__ = ["Arguments", "case", "cases", "every_case", "further_cases", "special_cases"]
+__all__ = ["case", "cases", "every_case", "further_cases", "special_cases"]
 
-Arguments = tuple[Any, ...]
 
 ANGLES_RAD = (0, np.pi, 8e-2, 1e-3, 1e-6, np.pi - 1e-2, np.pi - 1e-6)
 """Turns at which a formula may have a case of its own, and turns just beside them."""
 
-INVISIBLE_ANGLE_RAD = 2e-8
-"""A turn of which the cosine is 1."""
-
-SCALES = (0.0, 1e-6, 1e-3, 3.0, 300.0)
-"""Factors of sizes: nothing at all, small numbers, and large ones."""
-
-MAX_SCALE_OF_MODEL = 3.0
-"""A robot that races would cost digits."""
-
+INVISIBLE_ANGLE_RAD = 2e-8  # a turn of which the cosine is 1
+SCALES = (0.0, 1e-6, 1e-3, 3.0, 300.0)  # factors of sizes: nothing at all, small numbers, and large ones
+MAX_SCALE_OF_MODEL = 3.0  # a robot that races would cost digits
 TINY_SCALES = (4e-9, 2e-11)
 """Factors that leave nothing which `np.allclose` would see beside zero, and more than rounding."""
 
@@ -90,15 +84,7 @@ def every_case(course: Course, part: Part, seed: int) -> list[Arguments]:
 
 
 def case(course: Course, name: str, number: int = 0, *, seed: int = 0) -> Arguments:
-    """Return the arguments of one of the cases that an answer is tried on.
-
-    Raises
-    ------
-    UnknownName
-        If no exercise has a function of that name.
-    CourseError
-        If there are fewer cases, or the seed is negative.
-    """
+    """Return the arguments of one of the cases that an answer is tried on."""
     part = course.find_part(name)[1]
     if seed < 0:
         raise CourseError(f"seed: expected a whole number, 0 or more, got {seed}")

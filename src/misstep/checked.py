@@ -14,9 +14,7 @@ from .verdict import EXPECTED, YOURS, Case, Compared, State, Verdict
 
 __all__ = ["STATES", "STYLE", "WORDS", "Checked", "case_html", "checked_html", "verdict_html"]
 
-WORDS = "words"
-"""What stands for the answer in words among the names of functions."""
-
+WORDS = "words"  # what stands for the answer in words among the names of functions
 STATES = {"done": Text("done", "完成"), "wrong": Text("wrong", "有误"), "to do": Text("to do", "未做")}
 
 

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 __all__ = ["at_least", "register"]
 
 REFUSED = 1
-
 ASK = Text("Show the solution of {id}? A hint may be enough. [y/N] ", "显示 {id} 的解答？也许一条提示就够了。[y/N] ")
 UNASKED = Text(
     "The solution of {id} is shown with --yes; a hint first? {command} hint {id}",

@@ -12,20 +12,16 @@ from .exercise import Part, Quantity
 
 __all__ = [
     *("FLOOR", "Array", "Value", "agree", "close", "copied_results", "differing", "is_one_array"),
-    *("pieces", "plain", "to_do", "unchanged", "values"),
+    *("plain", "to_do", "unchanged", "values"),
 ]
 
 Array = NDArray[Any]
 
-FLOOR = 1e-3
-"""Entries below this count as zero: an exact 0 is as good as 1e-17."""
+FLOOR = 1e-3  # entries below this count as zero: an exact 0 is as good as 1e-17
 
 
-LARGEST_INTEGER = 2**1023
-"""Whole numbers beyond cannot be converted to a float."""
-
-DEEPEST = 20
-"""Lists in lists of an answer; a list may also be in itself."""
+LARGEST_INTEGER = 2**1023  # whole numbers beyond cannot be converted to a float
+DEEPEST = 20  # lists in lists of an answer; a list may also be in itself
 
 
 class Value(NamedTuple):
@@ -82,19 +78,15 @@ def to_do(answer: Any) -> bool:
     return answer is Ellipsis
 
 
-def pieces(answer: Any, returns: Sequence[Quantity]) -> Sequence[Any] | None:
-    """Split an answer into the things that were asked for; None if there are not as many."""
-    if len(returns) == 1:
-        return [answer]
-    if (isinstance(answer, np.ndarray) and answer.ndim == 0) or not hasattr(answer, "__len__"):
-        return None
-    return list(answer) if len(answer) == len(returns) and not isinstance(answer, str | dict) else None
-
-
 def values(answer: Any, returns: Sequence[Quantity]) -> list[Value] | None:
-    """Return what a function returned, piece by piece, or None if there are not as many pieces as asked for."""
-    split = pieces(answer, returns)
-    return None if split is None else [Value(q, _array(x), x) for q, x in zip(returns, split)]
+    """Return what a function returned, piece by piece; None where there are not as many pieces as asked for."""
+    if len(returns) == 1:
+        answer = [answer]
+    elif isinstance(answer, str | dict) or not hasattr(answer, "__len__"):
+        return None
+    if getattr(answer, "ndim", 1) == 0 or len(answer) != len(returns):
+        return None
+    return [Value(q, _array(x), x) for q, x in zip(returns, answer)]
 
 
 def _array(x: Any) -> Array | None:
@@ -119,15 +111,8 @@ def close(a: Value, b: Value, rtol: float) -> bool:
     """Whether two values are the same, to a part of the largest entry of the second."""
     if a.array is None or b.array is None:
         return isinstance(a.raw, str) and isinstance(b.raw, str) and a.raw.strip() == b.raw.strip()
-    if a.array.shape != b.array.shape:
-        return False
-    if a.array.dtype.kind == "b" or b.array.dtype.kind == "b":
-        return a.array.dtype.kind == b.array.dtype.kind and bool((a.array == b.array).all())
-    finite = np.isfinite(a.array)
-    if not np.array_equal(a.array[~finite], b.array[~finite], equal_nan=True):
-        return False
-    scale = np.abs(b.array[np.isfinite(b.array)]).max(initial=FLOOR)
-    return bool((np.abs(a.array[finite] - b.array[finite]) <= rtol * scale).all())
+    same_kind = (a.array.dtype.kind == "b") == (b.array.dtype.kind == "b")
+    return same_kind and a.array.shape == b.array.shape and not differing(a.array, b.array, rtol).any()
 
 
 def differing(a: Array, b: Array, rtol: float) -> Array:

@@ -109,13 +109,7 @@ class Course:
         return {}
 
     def exercise(self, number: str) -> Exercise:
-        """Return an exercise by its number.
-
-        Raises
-        ------
-        UnknownName
-            If there is no such exercise; the message lists the nearest numbers.
-        """
+        """Return an exercise by its number; the error where there is none lists the nearest."""
         check_known("exercise", number, self.numbers, self.unknown)
         if number not in self._exercises:
             found = import_module(f"{self.items}.ex_{number.replace('.', '_')}").EXERCISE
@@ -132,13 +126,7 @@ class Course:
         return [self.exercise(number) for number in self.numbers if number.rpartition(".")[0] == section]
 
     def asked_for(self, name: str) -> Exercise:
-        """Return an exercise by its number, or by the name of one of its functions.
-
-        Raises
-        ------
-        UnknownName
-            If there is neither.
-        """
+        """Return an exercise by its number, or by the name of one of its functions."""
         is_number = name in self.numbers or name[:1].isdigit() or name.startswith(tuple(self.sections))
         return self.exercise(name) if is_number else self.find_part(name)[0]
 
@@ -156,13 +144,7 @@ class Course:
         return {part.name: (exercise, part) for exercise in self.exercises for part in exercise.parts}
 
     def find_part(self, name: str) -> tuple[Exercise, Part]:
-        """Return the exercise to which a function of that name belongs, and its part.
-
-        Raises
-        ------
-        UnknownName
-            If no exercise asks for such a function.
-        """
+        """Return the exercise to which a function of that name belongs, and its part."""
         check_known("function of an exercise", name, self._parts, self.unknown)
         return self._parts[name]
 

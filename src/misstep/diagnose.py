@@ -14,19 +14,17 @@ import numpy as np
 
 from .calls import muted
 from .compare import values
-from .differences import differences, structure
-from .evidence import Arguments, Evidence
+from .differences import differences, first_wrong_line, structure
 from .exercise import Part, Slip
 from .grammar import Edit, Habits
 from .program import MemoizedPackage, Program, source_with_helpers
-from .search import Found, Hypothesis, mutants, search, second_edits, slips
+from .search import Arguments, Evidence, Found, Hypothesis, mutants, search, slips
 from .text import Text, say
-from .tracing import first_wrong_line
 from .verdict import How, Verdict
 
 __all__ = ["Field", "diagnose"]
 
-MAX_CPU_S = {"slip": 4.0, "own": 2.2, "own of slip": 1.2, "reference": 1.0, "second": 2.0}
+MAX_CPU_S = {"slip": 4.0, "own": 2.2, "own of slip": 1.2, "reference": 1.0}
 """Seconds of CPU time that each search may take, beside its number of trials."""
 
 MAX_NAMED = 3  # slips or changes that one message names
@@ -46,19 +44,14 @@ EDITS = {
 }
 """What an edit does, by its `how`."""
 
-IN_PLACES = Text(", in {n} places", "（共 {n} 处）")
+ANY = Text("Your numbers fit any of these slips:", "你的数值等于犯下以下任一错误的结果：")
+OWN = Text("Line {line}: with {edit}, it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。")
+OWN_ANY = Text("Each of these changes alone makes it right{cases}:", "下列改动任取其一，{cases}就正确：")
 REFERENCE = Text(
-    "Your numbers are those of a right solution that has {edit}. Look for what does the same in your code.",
-    "你的数值等于把正确解法如此改动的结果：{edit}。请在自己的代码中找出效果相同的地方。",
+    "Your numbers are those of a right solution that has {edit}.", "你的数值等于把正确解法如此改动：{edit}。"
 )
-TWO_EDITS = Text(
-    "Two changes together make it right{cases}: line {a}, {first}; line {b}, {second}.",
-    "同时作两处改动，{cases}就正确：第 {a} 行，{first}；第 {b} 行，{second}。",
-)
-EXCHANGED = Text(
-    "{first} and {second} are exchanged: return them in the other order.",
-    "{first} 与 {second} 互换了：请按另一种顺序返回。",
-)
+EXCHANGED = Text("{first} and {second} are exchanged.", "{first} 与 {second} 互换了。")
+BROKEN = Text("This holds for every right answer, but not for yours: {x}", "正确答案都满足而你的不满足：{x}")
 
 
 @dataclass(frozen=True)
@@ -123,7 +116,7 @@ class _Diagnoser:
     def best(self) -> Verdict:
         """Return the first explanation in the order in which they are likely."""
         producers = (self._of_slips, self._of_order, self._of_results, self._of_own_code, self._of_reference)
-        for producer in (*producers, self._of_two_edits, self._of_structure):
+        for producer in (*producers, self._of_structure):
             found = producer()
             if found is not None:
                 return found
@@ -135,7 +128,7 @@ class _Diagnoser:
     def listed(self) -> Found:
         """The slips of the list that give the student's numbers."""
         evidence = self.evidence
-        return search(evidence, slips(evidence), evidence.answers, evidence.right, max_cpu_s=MAX_CPU_S["slip"])
+        return search(evidence, slips(self.part), evidence.answers, max_cpu_s=MAX_CPU_S["slip"])
 
     @cached_property
     def program(self) -> Program | None:
@@ -159,7 +152,7 @@ class _Diagnoser:
         evidence = self.evidence
         seconds = MAX_CPU_S["own of slip" if self.listed.whole else "own"]
         edits = mutants(self.program, "own", self.field.habits, evidence.chance_rules)
-        return search(evidence, edits, evidence.right, evidence.answers, max_cpu_s=seconds, is_cure=True)
+        return search(evidence, edits, evidence.right, max_cpu_s=seconds)
 
     @cached_property
     def solutions(self) -> list[Program]:
@@ -184,8 +177,7 @@ class _Diagnoser:
             return found
         for program in self.solutions:
             edits = mutants(program, "reference", self.field.habits, evidence.chance_rules)
-            seconds = MAX_CPU_S["reference"]
-            one = search(evidence, edits, evidence.answers, evidence.right, max_cpu_s=seconds)
+            one = search(evidence, edits, evidence.answers, max_cpu_s=MAX_CPU_S["reference"])
             if one.whole:
                 return one
             found.of_result = {**one.of_result, **found.of_result}
@@ -211,16 +203,9 @@ class _Diagnoser:
         names = [x.slip for x in self.listed.whole]
         if not names:
             return None
-        lines = [
-            say(
-                "Your numbers fit this slip: {slip}",
-                "你的数值等于犯下这个错误的结果：{slip}",
-                slip=self._slip(names[0]),
-            )
-        ]
+        lines = [say("Your numbers fit this slip: {x}", "你的数值等于犯下这个错误的结果：{x}", x=self._slip(names[0]))]
         if len(names) > 1:
-            head = Text("Your numbers fit any of these slips:", "你的数值等于犯下以下任一错误的结果：")
-            lines = [head, *(say("  - {slip}", "  - {slip}", slip=self._slip(name)) for name in names[:MAX_NAMED])]
+            lines = [ANY, *(say("  - {x}", "  - {x}", x=self._slip(name)) for name in names[:MAX_NAMED])]
         edit = next((x.edit for x in self.own.whole if x.edit and _is_plain(x.edit)), None)
         if edit is not None:
             lines.append(say("Line {line}: {edit}.", "第 {line} 行：{edit}。", line=edit.line, edit=edit_text(edit)))
@@ -239,10 +224,8 @@ class _Diagnoser:
         if not evidence.wrong <= found.keys():
             return None
         each = {j: found[j][0] for j in sorted(evidence.wrong)}
-        titles = {j: self.part.returns[j].title for j in each}
-        lines = [
-            say("In {name}: {x}", "在 {name} 中：{x}", name=titles[j], x=self._of_result(x)) for j, x in each.items()
-        ]
+        named = [(self.part.returns[j].title, self._of_result(x)) for j, x in each.items()]
+        lines = [say("In {name}: {x}", "在 {name} 中：{x}", name=name, x=x) for name, x in named]
         names = list(dict.fromkeys(x.slip for x in each.values() if x.slip))
         how: How = "slip" if names else "line" if any(x.origin == "own" for x in each.values()) else "reference"
         return _wrong(how, *lines, slips=names)
@@ -259,33 +242,20 @@ class _Diagnoser:
         edits = [x.edit for x in self.own.whole if x.edit][:MAX_NAMED]
         if not edits:
             return None
-        each = [{"line": x.line, "edit": edit_text(x), "cases": self._cases} for x in edits]
-        lines = [
-            say("Line {line}: with {edit}, it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。", **each[0])
-        ]
+        n, evidence = len(self.evidence.cases), self.evidence
+        cases = Text(f" in all {n} cases", f"全部 {n} 组数据") if n > 1 else Text("", "")
+        each = [{"line": x.line, "edit": edit_text(x)} for x in edits]
+        lines = [OWN.fill(cases=cases, **each[0])]
         if len(each) > 1:
-            head = "Each of these changes alone makes it right{cases}:", "下列改动任取其一，{cases}就正确："
-            lines = [say(*head, cases=self._cases)]
+            lines = [OWN_ANY.fill(cases=cases)]
             lines += [say("  - line {line}: {edit}", "  - 第 {line} 行：{edit}", **x) for x in each]
-        has_raised = self.evidence.answers[self.evidence.first] is None
-        shown = None if has_raised else structure(self.part, self.evidence.answers, self.evidence.right)
+        has_raised = evidence.answers[evidence.first] is None
+        shown = None if has_raised else structure(self.part, evidence.answers, evidence.right)
         return _wrong("line", *([shown] if shown else []), *lines)
 
     def _of_reference(self) -> Verdict | None:
         edit = next((x.edit for x in self.reference.whole if x.edit), None)
         return None if edit is None else _wrong("reference", REFERENCE.fill(edit=edit_text(edit)))
-
-    def _of_two_edits(self) -> Verdict | None:
-        """Two edits of the student's code that together make it right."""
-        evidence = self.evidence
-        often = 2 * len(evidence.wrong_cases) >= len(evidence.cases)
-        if self.program is None or not self.own.partial or evidence.chance_rules or not often:
-            return None
-        for x in second_edits(evidence, self.program, self.own, self.field.habits, MAX_CPU_S["second"]):
-            if x.after and x.edit:
-                given = {"a": x.after.line, "first": edit_text(x.after), "b": x.edit.line, "second": edit_text(x.edit)}
-                return _wrong("line", TWO_EDITS.fill(cases=self._cases, **given))
-        return None
 
     def _located(self) -> Verdict:
         """Where it goes wrong, and how the numbers differ."""
@@ -308,22 +278,13 @@ class _Diagnoser:
             except PROPERTY_ERRORS:
                 return
             if np.isfinite(own).all() and (own > NOTICEABLE).any() and (of_right <= NOTICEABLE).all():
-                text = (
-                    "This holds for every right answer, but not for yours: {text}",
-                    "正确答案都满足而你的不满足：{text}",
-                )
-                yield say(*text, text=item.text)
+                yield BROKEN.fill(x=item.text)
 
     def _slip(self, name: str) -> Text:
         """Return the title and the reason of a slip, those of the part where it has its own."""
         slip = self.field.slips[name]
         title, why = self.part.titles.get(name, slip.title), self.part.reasons.get(name, slip.why)
         return Text(f"{title.en}. {why.en}", f"{title.zh}。{why.zh}")
-
-    @property
-    def _cases(self) -> Text:
-        n = len(self.evidence.cases)
-        return Text(f" in all {n} cases", f"全部 {n} 组数据") if n > 1 else Text("", "")
 
 
 def _wrong(how: How, *lines: Text, slips: Sequence[str] = ()) -> Verdict:
@@ -345,5 +306,4 @@ def edit_text(edit: Edit) -> Text:
     """Describe an edit: what is put in place of what."""
     n = len(edit.changes)
     text = EDITS["replace" if n > 1 else edit.how].fill(before=edit.before, after=edit.after)
-    more = IN_PLACES.fill(n=n) if n > 1 else Text("", "")
-    return Text(text.en + more.en, text.zh + more.zh)
+    return Text(f"{text.en}, in {n} places", f"{text.zh}（共 {n} 处）") if n > 1 else text

@@ -1,46 +1,38 @@
-"""How wrong results differ from right ones: type, shape, sign, transpose, factor, places, digits."""
+"""How wrong results differ from right ones, and the first line of a program that goes wrong."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import ast
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from .compare import FLOOR, Array, Value, pieces, values
+from .compare import FLOOR, Array, Value, values
 from .exercise import Part
+from .program import Program, equal, text_of
 from .text import Text, say
 
-__all__ = ["differences", "structure"]
-
-REPORTED_FACTORS = (2, 3, 4, 6, 8, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
-"""Factors that show the slip. Others are chance, and would give a number away."""
+__all__ = ["differences", "first_wrong_line", "structure"]
 
 MAX_LISTED = 3  # wrong entries that are listed
 NEARLY = 5e-3  # relative error of an answer of which some digits are right
 SINGLE_ERROR = (5e-9, 2e-6)  # relative errors, of the largest entry, that single precision leaves
+TRACE_RTOL = 1e-9
 
-NOT_FINITE = Text("{name} has entries that are not finite numbers.", "{name} 含有不是有限数的元素。")
 NO_RETURN = Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`？")
 SOMETIMES_NONE = Text(
-    "In some cases it returned None: a way through the function that ends without `return`?",
-    "在某些情形中返回了 None：函数中是不是有的路径没有 `return`？",
+    "In some cases it returned None: is a `return` missing?", "有时返回了 None：是不是漏了 `return`？"
 )
-SINGLE_PRECISION = Text(
-    "It is right to about 7 digits only: that is single precision, `float32`.",
-    "只有约 7 位正确：这是单精度 `float32`。",
-)
-WRONG_COUNT = Text(
-    "It must return {n} things, in this order: {names}. It returned {got}.",
-    "应按顺序返回 {n} 个量：{names}。实际返回 {got}。",
-)
-FIXED_SIZE = Text(
-    "{name} has the shape {shape} in all cases: the sizes of one of them are written into the function.",
-    "在所有情形中 {name} 的形状都是 {shape}：函数里写死了其中一种尺寸。",
-)
-CUT_OFF = Text(
-    "{name} has lost the digits after the point: make the array that it is written into one of floats, `np.zeros(n)`.",
-    "{name} 的小数部分丢失了：请把它写进浮点数组，例如 `np.zeros(n)`。",
+SINGLE = Text("It is right to about 7 digits only, as `float32` is.", "只有约 7 位正确，像 `float32` 那样。")
+COUNT = Text("It must return {n} things: {names}. It returned {got}.", "应返回 {n} 个量：{names}。实际返回 {got}。")
+FIXED_SIZE = Text("{name} has the shape {shape} in all cases.", "在所有情形中 {name} 的形状都是 {shape}。")
+TYPE = Text("{name} must be {what}, not {got}.", "{name} 应为{what}，而不是 {got}。")
+SHAPE = Text("{name} has the shape {got}; it must be {right}.", "{name} 的形状是 {got}，应为 {right}。")
+NOT_FINITE = Text("{name} has entries that are not finite numbers.", "{name} 含有不是有限数的元素。")
+FIRST_LINE = Text(
+    "Look at line {line}, `{text}`: what it uses occurs in a right solution, what it computes does not.",
+    "请看第 {line} 行 `{text}`：它用到的值在正确解法中都有，它算出的值却没有。",
 )
 
 
@@ -50,10 +42,10 @@ def structure(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text 
     if not given:
         return NO_RETURN
     for x in given:
-        if pieces(x, part.returns) is None:
+        if values(x, part.returns) is None:
             names = Text(", ".join(q.name for q in part.returns), "、".join(q.title.zh for q in part.returns))
             got = len(x) if isinstance(x, tuple | list) else type(x).__name__
-            return WRONG_COUNT.fill(n=len(part.returns), names=names, got=got)
+            return COUNT.fill(n=len(part.returns), names=names, got=got)
     if len(given) < len(answers):
         return SOMETIMES_NONE
     split = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in zip(answers, right)]
@@ -65,49 +57,32 @@ def structure(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text 
             return FIXED_SIZE.fill(name=quantity.title, shape=shapes.pop())
         if found and all(found):
             return found[0]
-        if len(pairs) > 1 and all(_is_cut_off(a, b) for a, b in pairs) and any(np.any(a.raw) for a, _ in pairs):
-            return CUT_OFF.fill(name=quantity.title)
     errors = [_relative_error(a, b) for x, y in split for a, b in zip(x, y)]
-    known = [x for x in errors if x is not None]
-    is_single = known and len(known) == len(errors) and part.rtol < SINGLE_ERROR[0] < max(known) < SINGLE_ERROR[1]
-    return SINGLE_PRECISION if is_single else None
+    is_single = part.rtol < SINGLE_ERROR[0] < max(errors, default=0) < SINGLE_ERROR[1]
+    return SINGLE if is_single else None
 
 
 def _uncomparable(got: Value, right: Value) -> Text | None:
     """Report another type or another shape, or numbers that are not finite."""
     name, a, b = got.quantity.title, got.array, right.array
-    wanted = Text("a string", "字符串") if b is None else Text("numbers", "数值")
-    if b is not None and b.dtype.kind == "b":
-        wanted = Text("True or False", "True 或 False")
-    if not (
-        isinstance(got.raw, str) if b is None else a is not None and (a.dtype.kind == "b") == (b.dtype.kind == "b")
-    ):
+    kinds = ["s" if isinstance(x.raw, str) else "" if x.array is None else x.array.dtype.kind for x in (got, right)]
+    wanted = {"s": Text("a string", "字符串"), "b": Text("True or False", "True 或 False")}
+    if not kinds[0] or (kinds[0] != kinds[1] and {*kinds} & wanted.keys()):
         kind = "None" if got.raw is None else type(got.raw).__name__
-        return say(
-            "{name} must be {what}, not {got}.", "{name} 应为{what}，而不是 {got}。", name=name, what=wanted, got=kind
-        )
+        return TYPE.fill(name=name, what=wanted.get(kinds[1], Text("numbers", "数值")), got=kind)
     if a is None or b is None:
         return None
     if a.shape != b.shape:
-        text = "{name} has the shape {got}; it must be {expected}.", "{name} 的形状是 {got}，应为 {expected}。"
-        return say(*text, name=name, got=a.shape, expected=b.shape)
+        return SHAPE.fill(name=name, got=a.shape, right=b.shape)
     return NOT_FINITE.fill(name=name) if np.isfinite(b).all() and not np.isfinite(a).all() else None
 
 
-def _is_cut_off(got: Value, right: Value) -> bool:
-    a, b = got.array, right.array
-    if a is None or b is None or a.shape != b.shape or not b.ndim or b.dtype.kind != "f":
-        return False
-    return bool(np.array_equal(a, np.trunc(b)) and not np.array_equal(a, b))
-
-
-def _relative_error(got: Value, right: Value) -> float | None:
+def _relative_error(got: Value, right: Value) -> float:
     a, b = got.array, right.array
     if a is None or b is None or a.shape != b.shape or not a.size or "b" in a.dtype.kind + b.dtype.kind:
-        return None
-    if not (np.isfinite(a).all() and np.isfinite(b).all()):
-        return None
-    return float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
+        return np.inf
+    error = float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
+    return error if np.isfinite(error) else np.inf
 
 
 def differences(part: Part, answer: Any, right: Any) -> tuple[list[Text], bool]:
@@ -164,36 +139,16 @@ def _relation(a: Array, b: Array, within: Any, origin: tuple[int, ...] = ()) -> 
         return Text("a number, where nan is expected", "给出了一个数，而应为 nan"), True
     if _same(b, 0 * b, within):
         return Text("must be zero", "应为零"), False
-    for text, other, factor in _likenesses(b):
-        if _same(a, other, factor * within):
-            return text, True
-    return _places(a, b, within, origin)
-
-
-def _likenesses(b: Array) -> Iterator[tuple[Text, Array, float]]:
-    """Yield what somebody may return in place of an array, with the factor of its tolerance."""
-    yield Text("zero, and must not be", "为零，不应为零"), 0 * b, 1
-    yield Text("the sign is wrong", "符号相反"), -b, 1
-    if b.ndim > 1:
-        yield Text("transposed", "被转置"), b.mT, 1
-        yield Text("transposed, and the sign is wrong", "被转置且符号相反"), -b.mT, 1
-    for n in REPORTED_FACTORS:
-        for sign, en, zh in ((1, "", ""), (-1, ", and of the other sign", "，且符号相反")):
-            large = say("too large by a factor of {n:.4g}" + en, "是正确值的 {n:.4g} 倍" + zh, n=n)
-            small = say("too small by a factor of {n:.4g}" + en, "只有正确值的 1/{n:.4g}" + zh, n=n)
-            yield large, sign * n * b, n
-            yield small, sign * b / n, 1 / n
-
-
-def _places(a: Array, b: Array, within: Any, origin: tuple[int, ...]) -> tuple[Text, bool]:
-    """Describe which entries are wrong, or in the wrong place, or how many digits are right."""
-    if a.size > 1 and _same(np.abs(a), np.abs(b), within):
-        return Text("the right numbers, some with the wrong sign", "数值正确，部分符号错误"), True
-    if a.size > 1 and _same(np.sort(a.ravel()), np.sort(b.ravel()), within):
-        return Text("the right numbers, in the wrong places", "数值正确，位置不对"), True
+    for en, zh, other in (
+        ("zero, and must not be", "为零，不应为零", 0 * b),
+        ("the sign is wrong", "符号相反", -b),
+        ("transposed", "被转置", np.swapaxes(b, -1, -2) if b.ndim > 1 else b),
+        ("transposed, and the sign is wrong", "被转置且符号相反", -np.swapaxes(b, -1, -2) if b.ndim > 1 else b),
+    ):
+        if _same(a, other, within):
+            return Text(en, zh), True
     with np.errstate(invalid="ignore"):
-        wrong = ~(np.abs(a - b) <= within)
-    error = float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
+        wrong, error = ~(np.abs(a - b) <= within), float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
     if error < NEARLY:
         return say("right to {n} digits only", "只有 {n} 位正确", n=int(-np.log10(error))), True
     n = int(wrong.sum())
@@ -204,3 +159,62 @@ def _places(a: Array, b: Array, within: Any, origin: tuple[int, ...]) -> tuple[T
     if n < a.size:
         return say("{n} of {all} numbers are wrong", "{all} 个数中有 {n} 个错误", n=n, all=a.size), False
     return Text("different numbers", "数值不同"), False
+
+
+# ---------------------------------------------------------------- the first wrong line
+
+
+def first_wrong_line(program: Program, arguments: Sequence[Any], solutions: Sequence[Program]) -> Text | None:
+    """Report the first statement of a traced program that computes what no right solution has, from what one has.
+
+    A value is known if an argument or an expression of a right solution has it, whatever its sign.
+    """
+    found: dict[tuple[int, ...], list[Array]] = {}
+    for value in (*arguments, *(value for solution in solutions for _, value in solution.events)):
+        for x in _arrays(value):
+            found.setdefault(x.shape, []).append(x)
+            if x.shape == (6,):
+                found.setdefault((3,), []).extend((x[:3], x[3:]))
+    stacked = {shape: np.array(arrays) for shape, arrays in found.items()}
+
+    def is_known(value: Any) -> bool:
+        return all(_occurs(x, stacked.get(x.shape)) or _occurs(-x, stacked.get(x.shape)) for x in _arrays(value))
+
+    statements = [*_statements(program)]
+    for k, (node, value, used) in enumerate(statements):
+        if not [*_arrays(value)] or is_known(value) or not all(map(is_known, used)):
+            continue
+        later = statements[k + 1 :]
+        if not any(is_known(x) and any(equal(value, y) for y in uses) for _, x, uses in later):
+            return FIRST_LINE.fill(line=node.lineno, text=text_of(node))  # else only another way to what is right
+    return None
+
+
+def _occurs(x: Array, every: Array | None) -> bool:
+    if every is None:
+        return False
+    within = TRACE_RTOL * max(float(np.abs(x).max(initial=0)), FLOOR)
+    return bool((np.abs(every - x) <= within).all(axis=tuple(range(1, every.ndim))).any())
+
+
+def _statements(program: Program) -> Iterator[tuple[Any, Any, list[Any]]]:
+    """Yield each assignment and return that has run, with its value and the values that it uses."""
+    used, owner = list[Any](), program.statements
+    for node, value in program.events:
+        statement = owner[id(node)]
+        if isinstance(statement, ast.Assign | ast.Return) and node is statement.value:
+            yield statement, value, used
+            used = []
+        elif isinstance(node, ast.Name | ast.Subscript | ast.Attribute) and [*_arrays(value)]:
+            used.append(value)
+
+
+def _arrays(value: Any) -> Iterator[Array]:
+    """Yield the arrays of a value that tell something: of finite numbers, not all of them whole."""
+    if isinstance(value, np.ndarray | float | np.number):
+        x = np.squeeze(np.asarray(value))
+        if x.dtype.kind == "f" and np.isfinite(x).all() and (x != np.trunc(x)).any():
+            yield x
+    elif isinstance(value, list | tuple | Mapping):
+        for entry in value.values() if isinstance(value, Mapping) else value:
+            yield from _arrays(entry)

@@ -76,17 +76,7 @@ class Quantity:
 
 
 class Slip(NamedTuple):
-    """A mistake that many have made before.
-
-    Attributes
-    ----------
-    title : Text
-        Its name in the message.
-    why : Text
-        What is true instead, in a sentence or two.
-    section : str
-        Where the course has it.
-    """
+    """A mistake that many have made before: its name, what is true instead, and where the course has it."""
 
     title: Text
     why: Text

@@ -1,4 +1,4 @@
-"""An answer that is typed as a formula: read by SymPy, tried like any function, and compared exactly.
+"""An answer that is typed as a formula: read by SymPy, and tried like any function.
 
 The arguments are SymPy's matrices and symbols, by their names in the skeleton: ``"R*x + p"``.
 """
@@ -17,50 +17,29 @@ from .judge import judge
 from .text import Text
 from .verdict import Verdict, headed
 
-__all__ = ["difference", "judge_formula", "typed"]
-
-NOT_EXACT = Text(
-    "The numbers agree, the formula is not the same: yours less the right one is {difference}.",
-    "数值一致，但公式不同：你的公式减去正确公式等于 {difference}。",
-)
+__all__ = ["judge_formula", "typed"]
 
 
 def judge_formula(exercise: Exercise, part: Part, formula: str, *, seed: int = 0) -> Verdict:
-    """Judge a formula: on numbers, as a function is, and where these agree exactly. What cannot be read is wrong."""
+    """Judge a formula as a function is; what cannot be read is wrong."""
     try:
-        verdict = judge(exercise, part, typed(part, formula), seed=seed)
-        left = difference(part, formula) if verdict.state == "done" else None
+        return judge(exercise, part, typed(part, formula), seed=seed)
     except CourseError as error:
-        left = Text(str(error), str(error))
-    return verdict if left is None else headed(exercise, part, left)
+        return headed(exercise, part, Text(str(error), str(error)))
 
 
 def typed(part: Part, formula: str) -> Callable[..., Any]:
-    """Return the function that a formula is.
+    """Return the function that a formula is, in the names of the arguments.
 
-    Parameters
-    ----------
-    part : Part
-        Of an exercise whose arguments are numbers, vectors and matrices.
-    formula : str
-        In the names of the arguments. ``*`` multiplies matrices, ``R.T`` is a transpose, ``a[0]`` an entry;
-        ``cross(a, b)``, ``skew(a)``, ``stack(a, b)`` and ``block([[A, B], [C, D]])`` are there besides what SymPy has.
-        Several results have a comma between them.
-
-    Returns
-    -------
-    callable
-
-    Raises
-    ------
-    CourseError
-        If SymPy is not installed, the formula cannot be read or has an unknown name, or the exercise asks for more.
+    ``*`` multiplies matrices, ``R.T`` is a transpose, ``a[0]`` an entry; ``cross(a, b)``, ``skew(a)``, ``stack(a, b)``
+    and ``block([[A, B], [C, D]])`` are there besides what SymPy has. Several results have a comma between them.
     """
     sympy = _sympy()
     symbols, results = _read(part, formula)
     flat = [entry for value in symbols.values() for entry in _entries(value)]
     compute = sympy.lambdify(flat, [sympy.Matrix(_entries(x)) for x in results], "numpy")
-    shapes = [np.shape(value) for value in _answers(part, cases(part, 0)[0])]
+    right = part.value(part.solution, cases(part, 0)[0])
+    shapes = [np.shape(value) for value in (right if len(part.returns) > 1 else (right,))]
 
     def function(*arguments: Any) -> Any:
         numbers = [float(x) for value in arguments for x in np.ravel(value)]
@@ -70,19 +49,6 @@ def typed(part: Part, formula: str) -> Callable[..., Any]:
 
     function.__name__ = part.name
     return function
-
-
-def difference(part: Part, formula: str) -> Text | None:
-    """Return what a formula differs by from the right one; None where it is the same, or where that needs numbers."""
-    sympy = _sympy()
-    symbols, results = _read(part, formula)
-    try:
-        right = _answers(part, tuple(map(_as_array, symbols.values())))
-        pairs = [(x, y) for one, other in zip(results, right) for x, y in zip(_entries(one), np.ravel(other))]
-        left = [sympy.simplify(sympy.nsimplify(x - y, rational=True)) for x, y in pairs]
-    except (ArithmeticError, AttributeError, TypeError, ValueError):
-        return None  # the reference needs numbers
-    return next((NOT_EXACT.fill(difference=x) for x in left if x != 0), None)
 
 
 def _sympy() -> Any:
@@ -138,17 +104,3 @@ def _symbol(name: str, shape: tuple[int, ...]) -> Any:
 def _entries(value: Any) -> list[Any]:
     """Return the entries of a matrix, row by row, or a number by itself."""
     return list(value) if hasattr(value, "shape") or isinstance(value, list | tuple) else [value]
-
-
-def _as_array(value: Any) -> Any:
-    """Return a symbol as it is, a matrix as an array of symbols, a column as a vector."""
-    if not hasattr(value, "shape"):
-        return value
-    array = np.array(value.tolist(), dtype=object)
-    return array[:, 0] if array.shape[1] == 1 else array
-
-
-def _answers(part: Part, arguments: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the right results as a tuple."""
-    found = part.value(part.solution, arguments)
-    return tuple(found) if len(part.returns) > 1 else (found,)

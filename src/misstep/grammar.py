@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .program import Change, Place, Program, locate, text_of
+from .program import Change, Place, Program, equal, locate, text_of
 
 __all__ = ["RULES", "Edit", "Habits", "edits"]
 
@@ -89,12 +89,10 @@ CONFUSABLE = (
 """Names of NumPy that are taken for each other."""
 
 SLICES = (":3", "3:", "3:6", ":6", "6:")
-
 REPEATABLE = ("sign", "turn", "drop", "name", "index", "number", "operator")
 """Rules whose edit may have to be made in several places at once, where the same text stands."""
 
-MAX_REPEATED = 5
-"""Places with the same text of which each pair is tried; of more only all."""
+MAX_REPEATED = 5  # places with the same text of which each pair is tried; of more only all
 
 
 class Rewrite(NamedTuple):
@@ -330,13 +328,6 @@ def _is_term(place: Place) -> bool:
     return not _in_brackets(place)
 
 
-def _equal(a: Any, b: Any) -> bool:
-    try:
-        return bool(np.array_equal(a, b))
-    except Exception:  # what cannot be compared
-        return a is b
-
-
 # ---------------------------------------------------------------- the rules that are no rows
 
 
@@ -453,7 +444,7 @@ def other_name(context: Context, place: Place) -> Iterator[Any]:
     value, kind = context.program.value(node), context.kind(node)
     if (named or count) and value is not None:
         for text, known in context.at_hand.items():
-            alike = _kind(known) == kind and not isinstance(known, str) and not _equal(known, value)
+            alike = _kind(known) == kind and not isinstance(known, str) and not equal(known, value)
             if alike and text != text_of(node):
                 yield code(text)
 

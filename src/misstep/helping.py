@@ -45,31 +45,7 @@ def hint(
     every: bool = False,
     language: Language | None = None,
 ) -> str:
-    """Return the next hint for an exercise. How many were given is remembered in the folder.
-
-    Parameters
-    ----------
-    course : Course
-    name : str
-        The number of the exercise, as "49.3.1", or the name of one of its functions.
-    folder : str or path
-        One that `start` has filled. In any other, nothing is remembered, and each call returns the first hint.
-    again : bool
-        Repeat the last hint.
-    every : bool
-        All hints at once.
-    language : {"en", "zh"}, optional
-        That of the folder unless given.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    UnknownName
-        If there is no such exercise or function.
-    """
+    """Return the next hint for an exercise, or the last one again. How many were given is remembered in the folder."""
     exercise, book = course.asked_for(name), Workbook(course, folder, language=language)
     number, language, n = exercise.id, book.language, len(exercise.hints)
     shown = int(book.state["hints"].get(number, 0))
@@ -102,29 +78,9 @@ def _remember(book: Workbook, section: str, **news: object) -> bool:
 
 
 def solution(course: Course, name: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
-    """Return a solution of an exercise, as it could stand in the student's file.
+    """Return a solution of an exercise, as it could stand in the student's file; that it was shown is remembered.
 
-    It includes the model answer to a question in words once the student has answered it. That it was shown is
-    remembered in the folder.
-
-    Parameters
-    ----------
-    course : Course
-    name : str
-        The number of the exercise, as "49.3.1", or the name of one of its functions.
-    folder : str or path
-        One that `start` has filled.
-    language : {"en", "zh"}, optional
-        That of the folder unless given.
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    UnknownName
-        If there is no such exercise or function.
+    It includes the model answer to a question in words once the student has answered it.
     """
     exercise, book = course.asked_for(name), Workbook(course, folder, language=language)
     number, language = exercise.id, book.language

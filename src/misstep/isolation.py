@@ -30,25 +30,14 @@ from .worker import NOT_RECEIVED
 
 __all__ = ["TIME_LIMIT_S", "drawn", "judged", "not_judged", "opened"]
 
-TIME_LIMIT_S = 10.0
-"""Seconds for one call of a function, and for reading a file. The longest of the references takes 0.1 s."""
+TIME_LIMIT_S = 10.0  # for one call of a function, and for reading a file; the longest of the references takes 0.1 s
 
 ENDLESS = Text("It did not finish in {s:g} s: a loop that never ends?", "{s:g} 秒内没有结束：是不是死循环？")
 ENDED = Text("It ended the whole Python process.", "它使整个 Python 进程终止了。")
-ENDED_IN = Text(
-    "{name} does so if it is given the number of a joint or frame that the model does not have: print the number.",
-    "把模型中没有的关节或坐标系的编号交给 {name}，它就会这样：请打印这个编号。",
-)
 
 
 def drawn(seed: int | None) -> int:
-    """Return a seed for the random cases: a new one each time unless it is given.
-
-    Raises
-    ------
-    CourseError
-        If it is negative.
-    """
+    """Return a seed for the random cases: a new one each time unless it is given."""
     if seed is not None and seed < 0:
         raise CourseError(f"seed: expected a whole number, 0 or more, got {seed}")
     return secrets.randbelow(10**6) if seed is None else seed
@@ -72,24 +61,8 @@ def opened(
 ) -> Iterator[Workbook]:
     """Open a folder that was started before, and close it again.
 
-    Parameters
-    ----------
-    course : Course
-    folder : str or path
-    language : {"en", "zh"}, optional
-        Of the messages.
-    seed : int, optional
-        Of the random cases; drawn anew unless given.
-    time_limit : float
-        Seconds for one call of a student's function; 0 for none, and no other process, as a debugger needs it.
-    printed : file, optional
-        Where what the other process prints goes; nowhere for None.
-    files : mapping, optional
-        The files that have another name than `start` has given them, by section.
-
-    Yields
-    ------
-    Workbook
+    A time limit of 0 is none, and no other process: a debugger needs that. What the other process prints goes to
+    `printed`, or nowhere. The other arguments are those of `Workbook`; the seed is drawn unless given.
     """
     if not time_limit >= 0:
         raise CourseError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
@@ -108,22 +81,6 @@ def judged(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed
     """Judge a function of a notebook, a script or a shell in another process, and print what it prints.
 
     It is judged here where there is no other process, and where it holds what cannot be sent to one.
-
-    Parameters
-    ----------
-    exercise : Exercise
-    part : Part
-        Of the exercise.
-    function : callable
-        The student's.
-    seed : int
-        Of the random cases.
-    time_limit : float
-        Seconds for one call; 0 for none.
-
-    Returns
-    -------
-    Verdict
     """
     with tempfile.TemporaryFile() as printed:
         try:
@@ -164,11 +121,7 @@ class _Isolated(Workbook):
 
     def close(self) -> None:
         """End the other process, and start no new one."""
-        self.is_closed = True
-        self._end()
-
-    def _end(self) -> None:
-        process, self._process = self._process, None
+        self.is_closed, process = True, self._process
         if process is not None:
             process.close()
 
@@ -205,8 +158,6 @@ class _Isolated(Workbook):
     def _verdict_on(self, died: Died, lines: list[Text]) -> Verdict:
         """Return the verdict on a function that did not give an answer, with the case that it was called with."""
         exercise, part = self.course.find_part(str(died.at))
-        if exercise.needs and not died.late:
-            lines.insert(1, ENDED_IN.fill(name=exercise.needs.title()))
         tried = cases(part, self.seed)
         k = min(max(died.call, 0), len(tried) - 1)  # further calls look for what is wrong
         return headed(exercise, part, *lines, case=failing_case(exercise, part, k, self.seed, tried[k]))

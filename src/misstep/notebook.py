@@ -21,8 +21,7 @@ __all__ = ["check", "checked"]
 _STATES: dict[str, State] = {}
 """What has been checked in this process, by the name of the function. For the progress only."""
 
-_ASKED: dict[str, Language] = {}
-"""The language that was asked for last in this process."""
+_ASKED: dict[str, Language] = {}  # the language that was asked for last in this process
 
 
 def check(
@@ -36,38 +35,9 @@ def check(
     caller: Mapping[str, Any] | None = None,
     formulas: Mapping[str, str] | None = None,
 ) -> Checked:
-    """Check an exercise where it is written: in a notebook, a script or a shell.
+    """Check an exercise where it is written: the functions given, or those of it among the names of the caller.
 
-    Parameters
-    ----------
-    course : Course
-    number : str
-        Of the exercise.
-    functions : callable
-        The answers, in any order, matched by their names. Without any: those of the exercise that `caller` has.
-    words : str, optional
-        The answer in words, where the exercise asks for one; the model answer is then shown beside it.
-    language : {"en", "zh"}, optional
-        The one asked for last unless given; at first that of the folder or of the environment.
-    seed : int, optional
-        Of the random cases; drawn anew unless given.
-    time_limit : float
-        Seconds for one call; 0 for none.
-    caller : mapping, optional
-        The names where it is called.
-    formulas : mapping, optional
-        Answers typed as formulas, by the names of the functions.
-
-    Returns
-    -------
-    Checked
-
-    Raises
-    ------
-    UnknownName
-        If there is no such exercise, or it has no function of that name.
-    CourseError
-        If there is nothing to check.
+    A course's own `check` explains the arguments. `formulas` are by the names of the functions.
     """
     exercise, formulas, seed = course.exercise(number), formulas or {}, drawn(seed)
     known = {part.name: part for part in exercise.parts}

@@ -25,10 +25,7 @@ from .verdict import as_json, from_json
 __all__ = ["Died", "Process"]
 
 PROGRAM = "import sys; sys.path[:] = {path!r}; from misstep.worker import main; main()"
-
-MARK = "MISSTEP_WORKER"
-"""A variable of the environment that all have which such a process starts."""
-
+MARK = "MISSTEP_WORKER"  # a variable of the environment that all have which such a process starts
 SLACK_S = 5.0  # how much later than its own clock that of the other process may be
 MAX_CALLS = 30  # time limits of calls that an answer may take, with all of its cases and the search for what is wrong
 MIN_ANSWER_S = 60.0  # what an answer may take in any case
@@ -38,19 +35,7 @@ POLL_S = 0.5
 
 
 class Died(Exception):
-    """The process ended, or was ended.
-
-    Parameters
-    ----------
-    at : str or None
-        What it was running of the student's; None for nothing.
-    call : int
-        Which call of it, counted from 0.
-    late : bool
-        Whether it took too long.
-    trace : str
-        Where it was.
-    """
+    """The process ended, or was ended: at which function of the student's and which call of it, late, and where."""
 
     def __init__(self, at: str | None, call: int, late: bool, trace: str) -> None:
         super().__init__()
@@ -58,17 +43,7 @@ class Died(Exception):
 
 
 class Process:
-    """A process that answers questions, one at a time.
-
-    Parameters
-    ----------
-    task : dict
-        What it needs to know first, of what `as_json` can write.
-    limit : float
-        Seconds for a call of a student's function.
-    printed : file, optional
-        Where what it prints goes; nowhere unless given.
-    """
+    """A process that answers questions, one at a time. It is first told its task; what it prints goes to a file."""
 
     def __init__(self, task: dict[str, Any], limit: float, printed: IO[Any] | None) -> None:
         self._limit, self._word = limit, secrets.token_hex(16)
@@ -106,13 +81,7 @@ class Process:
             self._requests.flush()
 
     def ask(self, *question: Any) -> Any:
-        """Return the answer to a question.
-
-        Raises
-        ------
-        Died
-            If the process ends before, or takes too long.
-        """
+        """Return the answer to a question; it raises `Died` where the process ends before, or takes too long."""
         begun: list[str] = []
         calls: Counter[str] = Counter()
         end, due = time.monotonic() + max(MIN_ANSWER_S, MAX_CALLS * self._limit), float("inf")

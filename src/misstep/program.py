@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import copy
 import inspect
 import linecache
 import textwrap
@@ -13,19 +12,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-__all__ = ["Change", "MemoizedPackage", "Place", "Program", "locate", "source_with_helpers", "text_of"]
+__all__ = ["Change", "MemoizedPackage", "Place", "Program", "equal", "locate", "source_with_helpers", "text_of"]
 
 Function = Callable[..., Any]
 
-MAX_EVENTS = 6_000
-"""Values that one run records."""
-
-MAX_ROUNDS = 4_000
-"""Rounds of all loops of one call of a changed function: a change may make a loop endless."""
-
-MAX_RECORDED_SIZE = 4_000
-"""Entries of an array that is recorded as a copy; a larger one is recorded as it is."""
-
+MAX_EVENTS = 6_000  # values that one run records
+MAX_ROUNDS = 4_000  # rounds of all loops of one call of a changed function: a change may make a loop endless
+MAX_RECORDED_SIZE = 4_000  # entries of an array that is recorded as a copy; a larger one is recorded as it is
 LOCAL_ASSIGNMENTS = ast.Constant | ast.List | ast.Tuple | ast.Dict | ast.Lambda | ast.BinOp | ast.UnaryOp
 """What a name of the file may stand for, to be taken over with the functions that use it."""
 
@@ -55,6 +48,14 @@ class Change(NamedTuple):
 
     place: Place
     new: Any
+
+
+def equal(a: Any, b: Any) -> bool:
+    """Whether two values are the same, or the same object where they cannot be compared."""
+    try:
+        return bool(np.array_equal(a, b))
+    except Exception:
+        return a is b
 
 
 def text_of(node: ast.AST) -> str:
@@ -183,19 +184,6 @@ class Program:
             for place, _ in changes:
                 place.put(place.node)
 
-    def after(self, changes: tuple[Change, ...]) -> Program:
-        """Return the program after some changes, to be changed further."""
-        for place, new in changes:
-            place.put(new)
-        found = copy.copy(self)
-        found.tree = ast.fix_missing_locations(copy.deepcopy(self.tree))
-        for place, _ in changes:
-            place.put(place.node)
-        found.places = [place for top in found.tree.body for place in _places(top, ())]
-        found.values, found.events = {}, []
-        found.names = {**self.names, "_round": found._round}
-        return found
-
     def trace(self, run: Callable[[Function], Any]) -> Program:
         """Run it, and record the value of each expression, in the order in which they are computed."""
         nodes = [place.node for place in self.places if _has_value(place)]
@@ -210,6 +198,12 @@ class Program:
         for node, value in self.events:
             self.values.setdefault(id(node), []).append(value)
         return self
+
+    @property
+    def statements(self) -> dict[int, Any]:
+        """The statement around each node, by the identity of the node."""
+        around = {id(place.node): [x for x in place.parents if isinstance(x, ast.stmt)] for place in self.places}
+        return {node: found[-1] if found else None for node, found in around.items()}
 
     def value(self, node: Any) -> Any:
         """Return what an expression was when it first ran; of a constant, itself; None where it did not run."""

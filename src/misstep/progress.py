@@ -15,7 +15,6 @@ from .workbook import Workbook
 __all__ = ["Row", "Status", "status", "survey"]
 
 WIDTH = 12  # of the bar of a section
-
 COMMA = Text(", ", "、")
 READ = Text("To mend first, since it cannot be read: {files}", "无法读取，先改好：{files}")
 BORROWED = Text("On the reference until yours is right: {names}", "你的实现正确之前使用参考实现：{names}")
@@ -108,30 +107,7 @@ def status(
     seed: int | None = None,
     time_limit: float = TIME_LIMIT_S,
 ) -> Status:
-    """Check every exercise of a folder and return the progress.
-
-    Parameters
-    ----------
-    course : Course
-    folder : str or path
-        One that `start` has filled.
-    language : {"en", "zh"}, optional
-        Of the table; that of the folder unless given.
-    seed : int, optional
-        Of the random cases; drawn anew unless given.
-    time_limit : float
-        Seconds for one call of a function; 0 for none. The answers run in a process of their own, which is ended where
-        they take longer; without a limit they run in this one.
-
-    Returns
-    -------
-    Status
-
-    Raises
-    ------
-    CourseError
-        If nothing was started there.
-    """
+    """Check every exercise of a folder that was started, in another process, and return the progress."""
     with opened(course, folder, language=language, seed=seed, time_limit=time_limit) as book:
         book.must_be_started()
         return survey(book)

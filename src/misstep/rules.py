@@ -34,7 +34,6 @@ COURSE = f"{__package__}.course"  # the module that leads to the right answers
 LIBRARY = sysconfig.get_path("stdlib")
 UNKNOWN = object()  # what a name stands for that is only known at run time
 MAX_HELD = 1000  # things that are looked at in a list or a dictionary that a function uses
-
 TYPED = ("<ipython", "<stdin", "<string>", "<console>", "<python-input", "<cell")
 """How the names of files begin that stand for code which was typed, or run by `exec`."""
 

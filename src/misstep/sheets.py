@@ -17,7 +17,6 @@ from .verdict import Verdict
 __all__ = ["as_csv", "as_html", "as_junit", "as_table"]
 
 HEADER = "student exercise function state points of hints solution slips how reason words seed"
-
 HEADS = (Text("student", "学生"), Text("points", "得分"), Text("hints", "提示"), Text("solutions", "看过解答"))
 IN_WORDS = Text("words", "文字作答")
 SEED = Text(

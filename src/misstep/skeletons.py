@@ -31,21 +31,7 @@ WORDS = Text("In your own words, as a string:", "用自己的话回答，写成�
 def start(
     course: Course, folder: str | PathLike[str], *, language: Language | None = None
 ) -> tuple[list[Path], list[Path]]:
-    """Write the skeletons of all exercises into a folder. Existing files are not touched.
-
-    Parameters
-    ----------
-    course : Course
-    folder : str or path
-        Made if need be.
-    language : {"en", "zh"}, optional
-        Of texts and messages; that of the environment unless given.
-
-    Returns
-    -------
-    new, kept : list of path
-        The files that were written, and those that were there before.
-    """
+    """Write the skeletons into a folder; return the files that are new, and those that were there and stay."""
     book = Workbook(course, folder)
     book.folder.mkdir(parents=True, exist_ok=True)
     has_state = (book.folder / course.state_file).exists()

@@ -22,30 +22,14 @@ MAX_DEPTH = 5  # of folders in folders that are looked through
 MAX_FOLDERS = 1000
 MAX_MEMBERS = 100_000
 MAX_ARCHIVE_BYTES = 200 * MAX_FILE_BYTES  # of a zip in a zip, and of all that is unpacked of one
-
 OTHERS = ("__MACOSX", "__pycache__", "site-packages", "node_modules")
 
-SEVERAL = Text(
-    "There are several for {name}, and none was judged: {files}. Keep one.",
-    "{name} 有好几份，都没有评判：{files}。请只留一份。",
-)
+SEVERAL = Text("None of several for {name} was judged: {files}.", "{name} 有好几份，都没有评判：{files}。")
 
 
 @dataclass(frozen=True)
 class Submission:
-    """What a student has handed in.
-
-    Attributes
-    ----------
-    student : str
-        The name of the folder or of the zip.
-    folder : Path
-        With most of the files.
-    files : dict
-        From a section to its file.
-    remarks : tuple of Text
-        What an instructor should look at.
-    """
+    """What a student has handed in: the folder with most of the files, the file of each section, and remarks."""
 
     student: str
     folder: Path
@@ -56,23 +40,7 @@ class Submission:
 def submissions(
     course: Course, given: Sequence[str | PathLike[str]], room: Path, sections: Sequence[str]
 ) -> list[Submission]:
-    """Return what each student has handed in.
-
-    Parameters
-    ----------
-    course : Course
-    given : sequence of str or path
-        Folders or zips: each of a student, or with those of students in it.
-    room : Path
-        An empty folder, for what is unpacked.
-    sections : sequence of str
-        Those that are graded.
-
-    Raises
-    ------
-    CourseError
-        If one is neither a folder nor a zip.
-    """
+    """Return what each student has handed in, in folders and zips; what is unpacked goes to an empty folder."""
     tree = _Tree(course, room)
     found: list[Submission] = []
     for path in map(Path, given):
@@ -162,10 +130,7 @@ class _Tree:
 
 
 def _pattern(file: str) -> re.Pattern[str]:
-    """Return a pattern for the names of a section's file.
-
-    A second download is ``ex_49_7 (1).py``, and a platform puts the student's name before.
-    """
+    """Return a pattern for the names of a section's file: ``ex_49_7 (1).py``, or with the student's name before."""
     name = file.removesuffix(".py").replace("_", "[ _.-]?")
     return re.compile(rf"(?:.*[^0-9a-z])?{name}(?:[^0-9a-z].*)?\.py(?:\.txt)?")
 
@@ -225,13 +190,7 @@ def _content(path: Path) -> bytes | str:
 
 
 def _member(packed: zipfile.ZipFile, member: zipfile.ZipInfo, name: PurePosixPath, largest: int) -> bytes:
-    """Return the content of a member of a zip.
-
-    Raises
-    ------
-    ValueError
-        If it would be written elsewhere, or is too large, whatever the zip says of its size.
-    """
+    """Return the content of a member of a zip; not where it would be written elsewhere, or is too large."""
     if name.is_absolute() or ".." in name.parts or ":" in str(name):
         raise ValueError(f"{name}: expected a name in the folder")
     with packed.open(member) as source:

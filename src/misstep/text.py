@@ -20,9 +20,7 @@ WIDTH = 98
 WIDE_MARKS = "、。，；：！？（）【】《》“”‘’"
 NO_END = "（【《“‘("
 NO_START = "、。，；：！？）】》”’,.;:!?)"
-
-SHARED = "shared"
-"""The data file with passages that several texts of a package share: a name in braces stands for one."""
+SHARED = "shared"  # the data file with passages that several texts of a package share: a name in braces stands for one
 
 
 class Text(NamedTuple):

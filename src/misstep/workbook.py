@@ -26,7 +26,7 @@ from .files import write_text
 from .formulas import judge_formula, typed
 from .judge import judge
 from .rules import is_reference, reference
-from .text import Language, Text, default_language, say
+from .text import Language, Text, default_language
 from .verdict import Unread, Verdict, headed
 
 __all__ = ["MAX_FILE_BYTES", "Workbook", "content", "mine", "offered", "verdict_on_words"]
@@ -35,24 +35,16 @@ MAX_FILE_BYTES = 1_000_000  # of a student's file; the largest of the solved one
 MAX_HINTS = 100  # more than any exercise has
 MIN_CHARACTERS = 12  # of an answer in words; a sentence in Chinese needs no more
 
-NO_FILE = Text(
-    "{file} is not there: `{command} start` brings it back.", "缺少 {file}：用 `{command} start` 可重新生成。"
-)
+NO_FILE = Text("{file} is not there: `{command} start` brings it back.", "缺少 {file}：{command} start 可重新生成。")
 ENCODING = Text(
-    "{file} is not written in UTF-8: save it as UTF-8 in your editor. ({error})",
-    "{file} 不是 UTF-8 编码：请在编辑器中另存为 UTF-8。（{error}）",
+    "{file} is not written in UTF-8: save it as UTF-8. ({error})", "{file} 请另存为 UTF-8 编码。（{error}）"
 )
 UNREADABLE = Text("{file} cannot be read: {error}", "无法读取 {file}：{error}")
 UNREADABLE_LINE = Text("{file}, line {line} cannot be read: {error}", "{file} 第 {line} 行无法读取：{error}")
-PATCHED = Text(
-    "{file} changes `{name}`, which the check needs as it is: give what you write another name.",
-    "{file} 改动了 `{name}`，而检查需要它保持原样：请换一个名称。",
-)
-MISSING = Text("There is no function {name} in {file} any more.", "{file} 中已没有函数 {name}。")
-NO_FUNCTION = Text("{name} in {file} is not a function any more.", "{file} 中的 {name} 已不是函数。")
-NO_WORDS = Text(
-    "The function is right. Now explain it in words: fill in {name}.", "函数已正确。请再用文字作答：填写 {name}。"
-)
+PATCHED = Text("{file} changes `{name}`: give what you write another name.", "{file} 改动了 `{name}`：请换一个名称。")
+NO_FUNCTION = Text("There is no function {name} in {file} any more.", "{file} 中已没有函数 {name}。")
+NO_WORDS = Text("Now explain it in words: fill in {name}.", "请再用文字作答：填写 {name}。")
+SHORT = Text("{name} is very short: a sentence or two, please.", "{name} 太短：请写一两句话。")
 
 
 class Workbook:
@@ -158,14 +150,11 @@ class Workbook:
         if section not in self._modules:
             self._modules[section] = None  # while it is being read
             self._modules[section] = self._read(self.path(section))
-        return self._modules[section] or self._no_file(self.course.file_name(section))
-
-    def _no_file(self, name: str) -> Text:
-        return NO_FILE.fill(file=name, command=self.course.command)
+        return self._modules[section] or NO_FILE.fill(file=self.path(section).name, command=self.course.command)
 
     def _read(self, path: Path) -> ModuleType | Text:
         if not path.exists():
-            return self._no_file(path.name)
+            return NO_FILE.fill(file=path.name, command=self.course.command)
         module = ModuleType(path.stem)
         module.__dict__.update(__file__=str(path), __workbook__=self)
         try:
@@ -214,8 +203,7 @@ class Workbook:
         if isinstance(function, str):
             return judge_formula(exercise, part, function, seed=self.seed)
         if not callable(function):
-            text = MISSING if function is None else NO_FUNCTION
-            return headed(exercise, part, text.fill(name=part.name, file=path.name))
+            return headed(exercise, part, NO_FUNCTION.fill(name=part.name, file=path.name))
         return self.judge_function(exercise, part, function)
 
     def judge_function(self, exercise: Exercise, part: Part, function: Callable[..., Any]) -> Verdict:
@@ -260,18 +248,11 @@ def verdict_on_words(exercise: Exercise, words: str) -> Verdict:
     """Judge an answer in words: only whether there is enough of it."""
     if len(words.strip()) >= MIN_CHARACTERS:
         return Verdict("done")
-    text = "{name} is very short: a sentence or two, please.", "{name} 太短：请写一两句话。"
-    return Verdict("wrong", (say(*text, name=exercise.answer_name),))
+    return Verdict("wrong", (SHORT.fill(name=exercise.answer_name),))
 
 
 def content(path: Path) -> bytes:
-    """Return what is in a file.
-
-    Raises
-    ------
-    OSError
-        If it is not a regular file, as a pipe that nobody writes to, or has more than 1 MB.
-    """
+    """Return what is in a file; an OSError where it is not a regular one, as a pipe is, or has more than 1 MB."""
     about = path.stat()
     if not stat.S_ISREG(about.st_mode):
         raise OSError("it is not a regular file")
@@ -306,15 +287,12 @@ def _importable(folder: Path) -> Iterator[None]:
 
 
 def mine(course: Course, name: str, asker: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return a function of an earlier exercise: the student's once it is right, the reference until then.
-
-    The folder is that of the file with the names of `asker`.
-    """
+    """Return what `offered` does, for the folder of the file with the names of `asker`."""
     return offered(name, asker.get("__workbook__") or Workbook(course, Path(asker.get("__file__", "")).parent))
 
 
 def offered(name: str, book: Workbook) -> Callable[..., Any]:
-    """Return what `mine` does, for a folder."""
+    """Return a function of an earlier exercise: the student's once it is right, the reference until then."""
     _, part = book.course.find_part(name)
 
     def function(*arguments: Any, **named: Any) -> Any:

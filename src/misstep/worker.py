@@ -23,7 +23,6 @@ from .workbook import Workbook
 __all__ = ["NOT_RECEIVED", "main"]
 
 NOT_RECEIVED = "not received"  # the answer on a function that cannot be made again here
-
 MAX_ADDED_BYTES = 4 << 30  # of memory that an answer uses; the largest of the references uses 0.1 GB
 MAX_FILE_BYTES = 100_000_000  # of a file that an answer writes, where the system can limit them
 MAX_PRINTED = 10_000  # characters that the answers of a folder print, a line counted as 80 at least

@@ -94,8 +94,7 @@ def check(
     time_limit : float
         Seconds for one call, in a process of its own; 0 for none, and no other process.
     formulas : str
-        Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them,
-        and compares exactly where the right answer is a formula.
+        Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them.
 
     Returns
     -------
