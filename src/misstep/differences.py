@@ -24,7 +24,7 @@ NO_RETURN = Text("It returned None. Is the `return` missing?", "返回了 None�
 SOMETIMES_NONE = Text(
     "In some cases it returned None: is a `return` missing?", "有时返回了 None：是不是漏了 `return`？"
 )
-SINGLE = Text("It is right to about 7 digits only, as `float32` is.", "只有约 7 位正确，像 `float32` 那样。")
+SINGLE = Text("It is right to about 7 digits only: single precision.", "只有约 7 位正确：这是单精度。")
 COUNT = Text("It must return {n} things: {names}. It returned {got}.", "应返回 {n} 个量：{names}。实际返回 {got}。")
 FIXED_SIZE = Text("{name} has the shape {shape} in all cases.", "在所有情形中 {name} 的形状都是 {shape}。")
 TYPE = Text("{name} must be {what}, not {got}.", "{name} 应为{what}，而不是 {got}。")

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import combinations
 from typing import Any, NamedTuple
@@ -210,27 +210,11 @@ def _rows() -> Iterator[tuple[str, ast.expr, tuple[str, ...]]]:
 ROWS = tuple(_rows())
 
 
-@dataclass
 class Context:
     """A program that has run, with what stands at hand in it."""
 
-    program: Program
-    habits: Habits
-    rules: dict[str, tuple[Callable[[Context, Place], Iterator[Any]], ...]] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.rules = {
-            "copy": (own_array,),
-            "order": (exchange_entries,),
-            "sign": (negate,),
-            "turn": (transpose,),
-            "drop": (leave_out,),
-            "name": (other_name,),
-            "index": (other_index,),
-            "number": (other_number,),
-            "operator": (missing_factor,),
-            "flow": (other_flow,),
-        }
+    def __init__(self, program: Program, habits: Habits) -> None:
+        self.program, self.habits = program, habits
 
     def replacements(self, rule: str, place: Place) -> Iterator[Any]:
         """Yield what a rule puts in a place."""
@@ -238,8 +222,7 @@ class Context:
             for name, left, rights in ROWS:
                 if name == rule and (found := self.match(left, place.node)) is not None:
                     yield from (code(right, **found) for right in rights)
-        for function in self.rules[rule]:
-            yield from function(self, place)
+        yield from FUNCTIONS[rule](self, place)
 
     def match(self, pattern: Any, node: Any) -> dict[str, Any] | None:
         """Return what the letters of a pattern stand for in an expression, None where it has another form."""
@@ -552,3 +535,18 @@ def _other_loop(node: ast.For, place: Place) -> Iterator[Rewrite]:
         if isinstance(line, ast.Assign):
             loop = ast.For(node.target, node.iter, [line, *node.body], node.orelse)
             yield Rewrite(loop, "in loop", text_of(line), line)
+
+
+FUNCTIONS: dict[str, Callable[[Context, Place], Iterator[Any]]] = {
+    "copy": own_array,
+    "order": exchange_entries,
+    "sign": negate,
+    "turn": transpose,
+    "drop": leave_out,
+    "name": other_name,
+    "index": other_index,
+    "number": other_number,
+    "operator": missing_factor,
+    "flow": other_flow,
+}
+"""By its rule, what yields the edits that are no rows."""

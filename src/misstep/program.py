@@ -17,7 +17,7 @@ __all__ = ["Change", "MemoizedPackage", "Place", "Program", "equal", "locate", "
 Function = Callable[..., Any]
 
 MAX_EVENTS = 6_000  # values that one run records
-MAX_ROUNDS = 4_000  # rounds of all loops of one call of a changed function: a change may make a loop endless
+MAX_ROUNDS = 100_000  # of all loops of a changed function, in all calls: a change may make a loop endless
 MAX_RECORDED_SIZE = 4_000  # entries of an array that is recorded as a copy; a larger one is recorded as it is
 LOCAL_ASSIGNMENTS = ast.Constant | ast.List | ast.Tuple | ast.Dict | ast.Lambda | ast.BinOp | ast.UnaryOp
 """What a name of the file may stand for, to be taken over with the functions that use it."""
@@ -105,20 +105,10 @@ def source_with_helpers(function: Function) -> str | None:
 
 
 class Program:
-    """The syntax tree of a function, of which single nodes can be replaced.
+    """The syntax tree of a function or class, of which single nodes can be replaced.
 
-    Parameters
-    ----------
-    function : callable
-        A function or a class.
-    source : str, optional
-        Its source, with helpers; read from its file unless given.
-    caller : callable, optional
-        A function that calls it, and stands for it when it is run.
-    package : MemoizedPackage, optional
-        Stands in place of the package that the function uses.
-    given : mapping, optional
-        Its arguments by name.
+    Its source, with helpers, is read from its file unless given. Where a `caller` is given, that is what is run. The
+    memoized package stands in place of the one that it uses; `given` are its arguments by name.
     """
 
     def __init__(
@@ -140,7 +130,6 @@ class Program:
         self.places = [place for top in self.tree.body for place in _places(top, ())]
         self.values: dict[int, list[Any]] = {}
         self.events: list[tuple[Any, Any]] = []
-        self._left = MAX_ROUNDS
 
     def _round(self) -> None:
         self._left -= 1
@@ -148,27 +137,14 @@ class Program:
             raise RuntimeError("an endless loop")
 
     def compiled(self, tree: Any = None, **more: Any) -> Function:
-        """Return the function as the tree has it now; its caller where it has one."""
-        names = {**self.names, **more}
+        """Return the function as the tree has it now, or its caller; the one made before must not run any more."""
+        names, self._left = {**self.names, **more}, MAX_ROUNDS
         exec(compile(tree or self.tree, "<changed>", "exec", dont_inherit=True), names)
-        found = names[self.function.__name__]
-        if self.caller is not None:
-            names = {**self.caller.__globals__, found.__name__: found}
-            found = FunctionType(self.caller.__code__, names, closure=self.caller.__closure__)
-        return self._restarting(found)
-
-    def _restarting(self, found: Any) -> Function:
-        """Return a function that counts its rounds from nought in each call."""
-        if inspect.isclass(found):
-            self._left = 100 * MAX_ROUNDS
+        found: Function = names[self.function.__name__]
+        if self.caller is None:
             return found
-
-        def call(*arguments: Any, **named: Any) -> Any:
-            self._left = MAX_ROUNDS
-            return found(*arguments, **named)
-
-        call.__name__ = found.__name__
-        return call
+        names = {**self.caller.__globals__, found.__name__: found}
+        return FunctionType(self.caller.__code__, names, closure=self.caller.__closure__)
 
     def mutant(self, changes: tuple[Change, ...]) -> Function | None:
         """Return the function with other nodes in some places; None where that is no program."""
