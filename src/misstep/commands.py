@@ -9,8 +9,9 @@ from collections.abc import Callable
 from contextlib import suppress
 from importlib import import_module
 from importlib.util import find_spec
+from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .files import check_writable, write_text
 from .text import Language, Text, default_language
@@ -22,11 +23,9 @@ if TYPE_CHECKING:
 __all__ = ["at_least", "register"]
 
 REFUSED = 1
+Number = TypeVar("Number", int, float)
 ASK = Text("Show the solution of {id}? A hint may be enough. [y/N] ", "显示 {id} 的解答？也许一条提示就够了。[y/N] ")
-UNASKED = Text(
-    "The solution of {id} is shown with --yes; a hint first? {command} hint {id}",
-    "加上 --yes 即显示 {id} 的解答；要不要先看提示？{command} hint {id}",
-)
+UNASKED = Text("With --yes; a hint first? {command} hint {id}", "加上 --yes；要不要先看提示？{command} hint {id}")
 NO_PYTEST = Text("pytest is not installed here: pip install pytest", "此处没有安装 pytest：pip install pytest")
 KINDS = {
     "code": Text("code", "编程"),
@@ -38,28 +37,22 @@ KINDS = {
 
 def at_least(least: int) -> Callable[[str], int]:
     """Return a parser of whole numbers that are not below `least`."""
-
-    def read(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            value = least - 1
-        if value < least:
-            raise argparse.ArgumentTypeError(f"expected a whole number, {least} or more, got {text!r}")
-        return value
-
-    return read
+    return lambda text: _read(int, text, least, f"expected a whole number, {least} or more, got {text!r}")
 
 
 def _seconds(text: str) -> float:
-    """Read a number of seconds."""
+    return _read(float, text, 0.0, f"expected a number of seconds, 0 or more, got {text!r}")
+
+
+def _read(kind: Callable[[str], Number], text: str, least: Number, expected: str) -> Number:
+    """Read a finite number that is not below another one."""
     try:
-        seconds = float(text)
+        value = kind(text)
     except ValueError:
-        seconds = -1.0
-    if not 0 <= seconds < 1e6:
-        raise argparse.ArgumentTypeError(f"expected a number of seconds, 0 or more, got {text!r}")
-    return seconds
+        raise argparse.ArgumentTypeError(expected) from None
+    if not least <= value < inf:
+        raise argparse.ArgumentTypeError(expected)
+    return value
 
 
 def register(parser: Any, course: str) -> None:
@@ -67,31 +60,32 @@ def register(parser: Any, course: str) -> None:
     parser.set_defaults(course=course)
     actions = parser.add_subparsers(required=True, metavar="ACTION")
 
-    def action(name: str, help: str, run: Callable[[argparse.Namespace], int]) -> Any:
-        added = actions.add_parser(name, help=help)
+    def action(run: Callable[[argparse.Namespace], int], help: str) -> Any:
+        added = actions.add_parser(run.__name__.removeprefix("run_"), help=help)
         added.add_argument("--language", choices=["en", "zh"], help="remembered in the folder: English or 简体中文")
         added.set_defaults(run=run)
         return added.add_argument
 
-    add = action("start", "write the skeletons into DIR; what is there stays as it is", run_start)
+    add = action(run_start, "write the skeletons into DIR; what is there stays as it is")
     add("dir", metavar="DIR", help="a folder for your answers, made if need be, such as `answers`")
-    add = action("status", "check all answers and show the progress by section", run_status)
+    add = action(run_status, "check all answers and show the progress by section")
     add("dir", nargs="?", default=".", metavar="DIR")
     add("--time-limit", type=_seconds, metavar="S", help="seconds for one call of a function; 0 for none (10)")
     add("--seed", type=at_least(0), metavar="N", help="of the random cases; drawn anew unless given")
-    add = action("case", "the arguments of a case, and the right answer", run_case)
+    add = action(run_case, "the arguments of a case, and the right answer")
     add("name", metavar="FUNCTION", help="as in the skeletons")
     add("number", type=int, nargs="?", default=0, metavar="K", help="which case, counted from 0 (0)")
     add("--seed", type=at_least(0), default=0, metavar="N", help="of the random cases (0)")
-    add = action("hint", "the next hint for an exercise", run_hint)
-    _add_exercise(add)
-    add("--all", action="store_true", help="all hints")
-    add("--again", action="store_true", help="the last hint again")
-    add = action("solution", "a solution of an exercise", run_solution)
-    _add_exercise(add)
-    add("--yes", action="store_true", help="do not ask whether you are sure")
-    action("list", "all exercises", run_list)
-    add = action("grade", "for instructors: the folders of a whole class, each by itself", run_grade)
+    add_hint = action(run_hint, "the next hint for an exercise")
+    add_solution = action(run_solution, "a solution of an exercise")
+    for add in (add_hint, add_solution):
+        add("id", metavar="ID", help="as 49.3.1, or the name of a function")
+        add("--dir", default=".", metavar="DIR", help="where the exercises are (here)")
+    add_hint("--all", action="store_true", help="all hints")
+    add_hint("--again", action="store_true", help="the last hint again")
+    add_solution("--yes", action="store_true", help="do not ask whether you are sure")
+    action(run_list, "all exercises")
+    add = action(run_grade, "for instructors: the folders of a whole class, each by itself")
     add("folders", nargs="+", metavar="FOLDER", help="or zip: of a student, or with those of students in it")
     add("--only", nargs="+", default=[], metavar="ID", help="exercises or sections: 49.6 49.7.1 (all)")
     add("--csv", metavar="FILE", help="a row for each function of each student")
@@ -100,11 +94,6 @@ def register(parser: Any, course: str) -> None:
     add("--seed", type=at_least(0), metavar="N", help="of the random cases, the same for all; else drawn")
     add("--timeout", type=_seconds, metavar="S", help="seconds for one call of a function (10)")
     add("--jobs", type=at_least(1), metavar="N", help="folders at a time (one for each processor)")
-
-
-def _add_exercise(add: Any) -> None:
-    add("id", metavar="ID", help="as 49.3.1, or the name of a function")
-    add("--dir", default=".", metavar="DIR", help="where the exercises are (here)")
 
 
 # ---------------------------------------------------------------- what each does; it imports what it needs
