@@ -15,7 +15,11 @@ from .verdict import EXPECTED, YOURS, Case, Compared, State, Verdict
 __all__ = ["STATES", "STYLE", "WORDS", "Checked", "case_html", "checked_html", "verdict_html"]
 
 WORDS = "words"  # what stands for the answer in words among the names of functions
-STATES = {"done": Text("done", "完成"), "wrong": Text("wrong", "有误"), "to do": Text("to do", "未做")}
+STATES: dict[State, Text] = {
+    "done": Text("done", "完成"),
+    "wrong": Text("wrong", "有误"),
+    "to do": Text("to do", "未做"),
+}
 
 
 @dataclass(frozen=True, repr=False)
@@ -106,16 +110,13 @@ STYLE = """<style>
 .tw-check td.tw-bad {background: #fbd5be; color: #7a2e00; font-weight: bold}
 .tw-check td.tw-good {background: #d5f0e6; color: #00402e}
 .tw-check details {margin: 0.2em 0 0.2em 1em}
-.tw-check svg {vertical-align: top; margin: 0.3em 0}
 </style>"""
 
 IN_THE_SHELL = re.compile(r"[;；][^;；\n]* hint [\w.]+")
 """What a message says of a command; where the hints are below it, it is left out."""
 
-SQUARE_PX = 9  # of a number in the map of an array
 
 AGAIN, INPUTS = Text("The same case again:", "再现这组数据："), Text("the inputs of this case", "这组数据的输入")
-MAP = Text("where it differs: a square for each number", "不同之处：每个数一格")
 COMPARE = Text("Your words, and the model answer to compare with:", "你的回答，以及供对照的参考答案：")
 
 
@@ -164,10 +165,10 @@ def case_html(case: Case, language: Language) -> str:
 
 
 def _compared_html(compared: Compared, language: Language) -> str:
-    """Return two tables, expected and got, in which what differs is in colour; of a large array a map."""
+    """Return two tables, expected and got, in which what differs is in colour; of a large array the first entries."""
     name = f"<p><b>{escape(compared.label.of(language))}</b></p>"
     if not compared.is_small:
-        return name + _map(compared, MAP.of(language))
+        return name + f"<pre>{escape(chr(10).join(compared.lines(language)[1:]))}</pre>"
     rows, wrong, tables = list(compared.rows()), np.atleast_2d(compared.wrong), ""
     for k, (title, kind) in enumerate(((EXPECTED, "tw-good"), (YOURS, "tw-bad"))):
         lines = ""
@@ -176,14 +177,3 @@ def _compared_html(compared: Compared, language: Language) -> str:
             lines += f"<tr>{''.join(cells)}</tr>"
         tables += f'<table class="tw-numbers"><caption>{title.of(language)}</caption>{lines}</table>'
     return f"{name}<div>{tables}</div>"
-
-
-def _map(compared: Compared, label: str) -> str:
-    """Return a picture of a large array: a square for each number, orange where it differs."""
-    wrong, px = compared.wrong.reshape(-1, compared.wrong.shape[-1]), SQUARE_PX
-    squares = "".join(
-        f'<rect x="{px * j}" y="{px * i}" width="{px - 1}" height="{px - 1}" fill="{"#d55e00" if bad else "#009e73"}"/>'
-        for (i, j), bad in np.ndenumerate(wrong)
-    )
-    size = f'width="{px * wrong.shape[1]}" height="{px * wrong.shape[0]}"'
-    return f'<div><svg {size} role="img" aria-label="{label}">{squares}</svg><br><small>{label}</small></div>'

@@ -147,11 +147,3 @@ class Course:
         """Return the exercise to which a function of that name belongs, and its part."""
         check_known("function of an exercise", name, self._parts, self.unknown)
         return self._parts[name]
-
-    def domains_of(self, part: Part) -> list[Domain]:
-        """Return what the arguments of a part are, in order."""
-        return [self.domains.get(name, Domain()) for name in part.names]
-
-    def has_model(self, part: Part) -> bool:
-        """Whether a part has an argument that is large."""
-        return bool(self.model) and self.model in part.names

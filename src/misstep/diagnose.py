@@ -17,7 +17,7 @@ from .compare import values
 from .differences import differences, first_wrong_line, structure
 from .exercise import Part, Slip
 from .grammar import Edit, Habits
-from .program import MemoizedPackage, Program, source_with_helpers
+from .program import Program, source_with_helpers
 from .search import Arguments, Evidence, Found, Hypothesis, mutants, search, slips
 from .text import Text, say
 from .verdict import How, Verdict
@@ -111,7 +111,6 @@ class _Diagnoser:
 
     def __init__(self, evidence: Evidence, field: Field, search_code: bool) -> None:
         self.evidence, self.part, self.field, self.search_code = evidence, evidence.part, field, search_code
-        self.package = None if field.package is None else MemoizedPackage(field.package)
 
     def best(self) -> Verdict:
         """Return the first explanation in the order in which they are likely."""
@@ -139,7 +138,7 @@ class _Diagnoser:
             return None
         given = dict(zip(self.part.names, evidence.cases[evidence.first]))
         try:
-            program = Program(function, source=source, package=self.package, given=given)
+            program = Program(function, source=source, given=given)
             return program.trace(lambda f: evidence.call(f, evidence.first))
         except Exception:  # it does not run again as it did
             return None
@@ -161,8 +160,7 @@ class _Diagnoser:
         for way in (self.part.solution, *self.part.ways):
             for listing in (way, *(self.part.beside if way is self.part.solution else ())):
                 if not inspect.isclass(listing):
-                    caller = None if listing is way else way
-                    program = Program(listing, caller=caller, package=self.package)
+                    program = Program(listing, caller=None if listing is way else way)
                     found.append(program.trace(lambda f: self.evidence.call(f, self.evidence.first)))
         return found
 

@@ -135,7 +135,7 @@ class _Trial:
 
     def _try(self, arguments: Arguments) -> Verdict | None:
         """Compare the answer in one case; return a verdict where no further one is needed."""
-        frozen = {id(x): x for x in arguments if is_dataclass(x) and x.__dataclass_params__.frozen}  # type: ignore[attr-defined]
+        frozen = {id(x): x for x in arguments if is_dataclass(x) and _is_frozen(x)}
         kept = copy.deepcopy(arguments, frozen)  # an answer may change a model that it is given
         with self.watch():
             answer, given = self._run(arguments)
@@ -235,6 +235,10 @@ class _Trial:
         section = self.course.field.slips[slips[0]].section if slips else self.exercise.section
         name = Text(f"§{section}", f" §{section}") if section[:1].isdigit() else self.course.title(section)
         return READ_ON.fill(section=name, id=self.exercise.id, command=self.course.command)
+
+
+def _is_frozen(x: Any) -> bool:
+    return bool(x.__dataclass_params__.frozen)
 
 
 def _repeated(first: Any, second: Any) -> bool:

@@ -7,12 +7,12 @@ import inspect
 import linecache
 import textwrap
 from collections.abc import Callable, Iterator
-from types import FunctionType, ModuleType
+from types import FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
 
-__all__ = ["Change", "MemoizedPackage", "Place", "Program", "equal", "locate", "source_with_helpers", "text_of"]
+__all__ = ["Change", "Place", "Program", "equal", "locate", "source_with_helpers", "text_of"]
 
 Function = Callable[..., Any]
 
@@ -107,8 +107,8 @@ def source_with_helpers(function: Function) -> str | None:
 class Program:
     """The syntax tree of a function or class, of which single nodes can be replaced.
 
-    Its source, with helpers, is read from its file unless given. Where a `caller` is given, that is what is run. The
-    memoized package stands in place of the one that it uses; `given` are its arguments by name.
+    Its source, with helpers, is read from its file unless given. What is run is its caller where there is one; `given`
+    are its arguments by name.
     """
 
     def __init__(
@@ -117,14 +117,11 @@ class Program:
         *,
         source: str | None = None,
         caller: Function | None = None,
-        package: MemoizedPackage | None = None,
         given: dict[str, Any] | None = None,
     ) -> None:
         self.function, self.caller, self.given = function, caller, given or {}
         names = getattr(function, "__globals__", None) or getattr(_method(function), "__globals__", {})
         self.names = {**names, "_round": self._round}
-        if package is not None:
-            self.names |= {name: package for name, x in names.items() if x is package.original}
         text = textwrap.dedent(inspect.getsource(function)) if source is None else source
         self.tree = ast.fix_missing_locations(_Bounded().visit(ast.parse(text)))
         self.places = [place for top in self.tree.body for place in _places(top, ())]
@@ -186,45 +183,6 @@ class Program:
         if isinstance(node, ast.Constant):
             return node.value
         return self.values.get(id(node), [None])[0]
-
-
-class MemoizedPackage:
-    """A package whose functions compute nothing twice: most changes leave most calls as they are."""
-
-    def __init__(self, package: ModuleType) -> None:
-        self.original = package
-        self._known: dict[Any, Any] = {}
-
-    def __getattr__(self, name: str) -> Any:
-        function = getattr(self.original, name)
-        if not callable(function) or isinstance(function, type):
-            return function
-
-        def memoized(*arguments: Any, **named: Any) -> Any:
-            given = (*arguments, *named.values())
-            key = (name, *named, *map(_key, given))
-            if key not in self._known:
-                self._known[key] = function(*arguments, **named), given  # kept alive: `id` is part of the key
-            return _fresh(self._known[key][0])
-
-        return memoized
-
-
-def _key(x: Any) -> Any:
-    if isinstance(x, np.ndarray):
-        return x.shape, x.dtype.str, x.tobytes()
-    return repr(x) if isinstance(x, int | float | str | list | tuple) else id(x)
-
-
-def _fresh(x: Any) -> Any:
-    """Return a result with copies of its arrays, as a wrong function may write into them."""
-    if isinstance(x, np.ndarray):
-        return x.copy()
-    if isinstance(x, list):
-        return [_fresh(y) for y in x]
-    if isinstance(x, tuple):
-        return type(x)(*map(_fresh, x)) if hasattr(x, "_fields") else tuple(map(_fresh, x))
-    return x
 
 
 def _method(function: Any) -> Any:

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from .compare import Array, Value, differing, values
+from .compare import Array, differing, values
 from .exercise import Exercise, Part
 from .text import Language, Text, hanging, say
 
@@ -119,11 +119,8 @@ class Case:
 
     def given(self, language: Language) -> list[str]:
         """Return the arguments, a line each, or several for an array."""
-        return [
-            line
-            for name, value in self.inputs
-            for line in _assigned(name, value.of(language) if isinstance(value, Text) else value)
-        ]
+        values = {name: x.of(language) if isinstance(x, Text) else x for name, x in self.inputs}
+        return [line for name, value in values.items() for line in _assigned(name, value)]
 
     def text(self, language: Language) -> str:
         """Return the case in words and numbers."""
@@ -194,7 +191,11 @@ def failing_case(
     compared: list[Compared] = []
     if arguments and answers:
         right, got = (values(answer, part.returns) for answer in answers)
-        compared = [_compared(a, b, part) for a, b in zip(right or [], got or []) if _is_comparable(a, b, part)]
+        is_measured = part.call is not None and part.canonical is not None  # nan stands for a lack of measurements
+        for a, b in zip(right or [], got or []):
+            x, y = a.array, b.array
+            if x is not None and y is not None and x.shape == y.shape and (not is_measured or np.isfinite(y).all()):
+                compared.append(Compared(a.quantity.label, x, y, differing(y, x, part.rtol)))
     course = exercise.course
     return Case(part.name, number, seed, inputs, tuple(compared), course.command, course.call)
 
@@ -202,8 +203,7 @@ def failing_case(
 def whole(part: Part, arguments: tuple[Any, ...], language: Language) -> str:
     """Return the arguments of a case and the right answer with all their numbers; of a number by hand, nothing."""
     if not arguments:
-        text = "{name} has no arguments: there is only one case.", "{name} 没有参数：只有一组数据。"
-        return say(*text, name=part.name).of(language)
+        return Text(f"{part.name} has no arguments.", f"{part.name} 没有参数。").of(language)
     right = values(part.value(part.solution, arguments), part.returns) or []
     with np.printoptions(floatmode="unique", threshold=10**6, linewidth=120):
         lines = [f"{name} = {value!r}" for name, value in zip(part.names, arguments)]
@@ -220,19 +220,6 @@ def _as_input(value: Any) -> Any:
         return Text(f"a list of {len(value)} arrays", f"{len(value)} 个数组的列表")
     name = getattr(value, "name", value)
     return name if isinstance(name, Text) else Text(*(" ".join(str(name).split()),) * 2)
-
-
-def _is_comparable(right: Value, got: Value, part: Part) -> bool:
-    """Whether two values can be shown beside each other; not where the second stands for a lack of measurements."""
-    if right.array is None or got.array is None or right.array.shape != got.array.shape:
-        return False
-    is_measured = part.call is not None and part.canonical is not None
-    return not is_measured or bool(np.isfinite(got.array).all())
-
-
-def _compared(right: Value, got: Value, part: Part) -> Compared:
-    a, b = np.asarray(right.array), np.asarray(got.array)
-    return Compared(right.quantity.label, a, b, differing(b, a, part.rtol))
 
 
 def _number(x: Any, digits: int = DIGITS[0]) -> str:
@@ -285,7 +272,7 @@ def _plain(x: Any) -> Any:
     if isinstance(x, np.ndarray | np.number | np.bool_):
         array = np.asarray(x)
         kind = "f" if array.dtype.kind in "iuf" else array.dtype.kind
-        flat = array.ravel().astype({"f": float, "b": int, "c": complex}[kind])
+        flat: Any = array.ravel().astype({"f": float, "b": int, "c": complex}[kind])
         return {"array": [list(array.shape), kind, flat.view(float if kind == "c" else flat.dtype).tolist()]}
     raise TypeError(f"expected numbers, texts, arrays or a verdict, got {name}")
 

@@ -48,26 +48,11 @@ SHORT = Text("{name} is very short: a sentence or two, please.", "{name} 太短�
 
 
 class Workbook:
-    """A folder that `start` has filled.
+    """A folder that `start` has filled, or that is yet to be. Its files are read once: make a new one for changes.
 
-    The student's files are read once: make a new one to see what has been changed since.
-
-    Parameters
-    ----------
-    course : Course
-    folder : str or path
-    language : {"en", "zh"}, optional
-        Of the messages; the one that the folder was started in unless given.
-    seed : int
-        Of the random cases.
-    files : mapping
-        From a section to the file with its answers, where that has another name than `start` has given it.
+    The language is that of the messages, the one that it was started in unless given; `files` are by section those that
+    have another name than `start` has given them.
     """
-
-    watch: Callable[[str], AbstractContextManager[object]] = staticmethod(nullcontext)
-    """Surrounds each call of the student's function of a name, and the reading of a file of a name."""
-    search: bool | None = None
-    """Whether small changes are looked for that explain a wrong answer, as in `judge`."""
 
     def __init__(
         self,
@@ -84,17 +69,15 @@ class Workbook:
         self._modules: dict[str, ModuleType | Text | None] = {}
         self._verdicts: dict[str, Verdict] = {}
         self._judging: list[str] = []
+        self.watch: Callable[[str], AbstractContextManager[object]] = nullcontext
+        """Surrounds each call of the student's function of a name, and the reading of a file of a name."""
+        self.search: bool | None = None
+        """Whether small changes are looked for that explain a wrong answer, as in `judge`."""
         self.borrowed: set[str] = set()
         """Functions that `mine` took from the reference."""
 
     def must_be_started(self) -> None:
-        """Check that the folder was started before.
-
-        Raises
-        ------
-        CourseError
-            If it was not; the message says where one may be that was.
-        """
+        """Raise a CourseError unless the folder was started; its message says where one may be that was."""
         if self.is_started:
             return
         named, new = f"{self.course.command} status DIR", f"{self.course.command} start DIR"

@@ -39,7 +39,7 @@ def main() -> None:
         if hasattr(os, "register_at_fork"):
             os.register_at_fork(after_in_child=lambda: os._exit(0))
         _limit_memory_and_files()
-        sys.stdout, sys.stderr = (_Short(stream) for stream in (sys.stdout, sys.stderr))  # type: ignore[assignment]
+        sys.stdout, sys.stderr = (_Short(stream) for stream in (sys.stdout, sys.stderr))
         faulthandler.enable(trace)
         book = _Watched(replies, word, limit, trace, dict(task))
         while question := questions.readline():
@@ -54,7 +54,7 @@ class _Watched(Workbook):
         files = {section: Path(path) for section, path in task["files"]}
         super().__init__(import_module(task["course"]).COURSE, task["folder"], seed=task["seed"], files=files)
         self._replies, self._word, self._limit, self._trace, self._depth = replies, word, limit, trace, 0
-        self.watch = self._watch  # type: ignore[assignment]
+        self.watch = self._watch
         self._verdicts.update({name: Verdict(state) for name, state in task["states"]})
         self._modules.update(dict(task["unreadable"]))
 

@@ -66,16 +66,13 @@ def test_the_hints_come_one_click_at_a_time():
 
 
 @pytest.mark.slow
-def test_a_large_array_has_a_map():
-    def mass_matrix_by_rnea(model, q):
-        return np.ones((model.nv, model.nv))
-
+def test_a_large_array_lists_what_differs():
     part = COURSE.find_part("mass_matrix_by_rnea")
-    wrong = judge(*part, mass_matrix_by_rnea)
+    wrong = judge(*part, lambda model, q: np.ones((model.nv, model.nv)))
     whole = Compared(part[1].returns[0].label, np.eye(12), np.ones((12, 12)), np.eye(12) == 0)
-    case = replace(wrong.case, compared=(whole,))
-    assert case_html(case, "en").count("<rect") == 144
-    assert case_html(case, "en").count('fill="#d55e00"') == 132
+    text = case_html(replace(wrong.case, compared=(whole,)), "en")
+    assert "[0, 1]" in text
+    assert "126 more entries" in text
 
 
 def test_one_part_of_two_gives_half_the_points():
