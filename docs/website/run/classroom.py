@@ -177,9 +177,9 @@ def try_out(number: str, answers: dict[str, str], state: str, language: str) -> 
 
 def check(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Check an exercise, and return the verdict as HTML."""
-    from misstep.notebook import checked
     from misstep.checked import checked_html
     from misstep.isolation import opened
+    from misstep.notebook import checked
     from twistwrench.exercises.chapter import COURSE
 
     outputs: list[Output] = []
