@@ -88,7 +88,8 @@ def judged(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed
                 return book.judge_function(exercise, part, function)
         finally:
             printed.seek(0)
-            sys.stdout.write(printed.read().decode(errors="replace"))
+            if text := printed.read().decode(errors="replace"):
+                sys.stdout.write(text)
 
 
 class _Isolated(Workbook):
