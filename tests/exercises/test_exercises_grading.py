@@ -78,6 +78,7 @@ def test_the_rows_say_what_was_used_and_why_there_are_no_points(found):
     assert rows["bela", "skew"]["reason"].startswith("It did not finish in 1.5 s")
     assert rows["chen", "skew"]["reason"] == "It ended the whole Python process."
     assert rows["chen", "act"]["slips"] == "translation-sign"
+    assert "the translation has the wrong sign" in rows["chen", "act"]["reason"]  # not how many cases are wrong
     assert "calls tw.rnea" in rows["dora", "base_wrench_at_rest"]["reason"]
     assert "that you are to write here" in rows["dora", "skew"]["reason"]
     assert "SyntaxError" in rows["emil", "act"]["reason"]
