@@ -7,7 +7,7 @@ from pathlib import Path
 
 import nbformat
 
-from misstep.folder import skeletons
+from misstep import skeletons
 from misstep.text import Language, wrapped
 from twistwrench.exercises.chapter import COURSE
 

@@ -11,34 +11,38 @@ Each file imports only from those above it in this table.
 file         what it holds
 ===========  ======================================================================
 errors       the errors of a course
+signals      work that nothing stops
 files        a file is written whole or not at all
-text         a text in two languages, in lines of a given width
-messages     the sentences that a message is made of
-prose        the texts of the exercises, from files beside them
+text         a text in two languages, from a data file, in lines of a given width
 exercise     what an exercise is, and what a slip is
 compare      right or wrong, entry by entry
 calls        calls of functions that may be wrong
 faults       wrong functions, made out of right ones
+verdict      the record of a judged function: its message, and the failing case
 program      a function as a tree that can be changed, and the values of its expressions
 grammar      small edits of a program, rule by rule
-differences  how wrong numbers differ from right ones
-tracing      the first line that computes what no right solution has
-evidence     a wrong answer: which results are wrong, and whether something explains them
-search       one search for what explains it
+differences  how wrong numbers differ from right ones, and the first wrong line
+search       a wrong answer as evidence, and one search for what explains it
 diagnose     the explanations in order, and one that is reported
 rules        what an exercise forbids
 domains      what an argument may be
 course       a course: its sections, its exercises, and what is special to its field
 cases        the cases that an answer is tried on
-failing      the failing case with its numbers
-state        what a function leaves behind
 judge        to do, done or wrong, with a message
-folder       a room: a student's folder
-processes    a room: a student's code in a process of its own
-notebook     a room: `check`
+checked      the record of an exercise; as text, and as HTML
+formulas     an answer that is typed as a formula
+workbook     a student's folder: the answers in it; `mine`
+skeletons    the files that a student starts from
+transfer     a function of a notebook as bytes
+process      the process of a student's code, as it is seen from outside
+worker       the program that it runs
+isolation    a folder, or a function, judged in it
+notebook     `check`
 helping      hints and solutions
 progress     a table of the sections
-grading      a room: a whole class
+submissions  what a class has handed in
+grading      a whole class
+sheets       its marks as a table, a CSV, a page, and XML
 commands     the command line of a course
 plugin       the plugin of pytest in a student's folder
 ===========  ======================================================================
@@ -53,6 +57,6 @@ An example without any course: a mean that is wrong by a slip nobody has listed.
 >>> cases = [(np.array([1.0, 2.5, 4.0]),), (np.array([3.0, 0.25]),)]
 >>> part = Part(solution=mean, returns=(Quantity("mean"),), cases=lambda rng: cases, slips={})
 >>> found = diagnose(part, np.median, [np.sum(x) for (x,) in cases], cases, Field(slips={}))
->>> found.how, found.lines[0].en.split(". ")[0]
-('reference', 'Your numbers are those of a right solution that has `np.sum(x)` in place of `np.sum(x) / len(x)`')
+>>> found.how, found.lines[0].en
+('reference', 'Your numbers are those of a right solution that has `np.sum(x)` in place of `np.sum(x) / len(x)`.')
 """

@@ -19,22 +19,11 @@ import numpy as np
 from .compare import plain, unchanged
 from .exercise import Part
 
-__all__ = [
-    "MAX_CPU_S",
-    "TooLong",
-    "call_or_none",
-    "cheapest_case",
-    "copied",
-    "keeps_arguments",
-    "limited",
-    "muted",
-    "shown",
-]
+__all__ = ["call_or_none", "cheapest_case", "copied", "keeps_arguments", "muted", "shown"]
 
 Function = Callable[..., Any]
 
-MAX_CPU_S = 1.0
-"""Seconds of CPU time that one call of a changed function may take."""
+MAX_CPU_S = 1.0  # seconds of CPU time that one call of a changed function may take
 
 
 class TooLong(BaseException):
@@ -42,7 +31,7 @@ class TooLong(BaseException):
 
 
 @contextmanager
-def limited(seconds: float) -> Iterator[None]:
+def _limited(seconds: float) -> Iterator[None]:
     """Raise in a block that takes longer, in CPU seconds of this process, where the system counts them.
 
     Elsewhere only the rounds of loops are counted (`program`); outside stands the process that runs the answers.
@@ -65,12 +54,23 @@ def limited(seconds: float) -> Iterator[None]:
 
 def call_or_none(part: Part, function: Function, arguments: tuple[Any, ...]) -> Any:
     """Return what a function that may be faulty gives; None where it raises an error or does not end."""
+    return _called(part, function, copied(arguments))
+
+
+def _called(part: Part, function: Function, given: tuple[Any, ...]) -> Any:
     try:
-        with limited(MAX_CPU_S), warnings.catch_warnings(), np.errstate(all="ignore"):
+        with _limited(MAX_CPU_S), warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
-            return plain(part.value(function, copied(arguments)))
+            return plain(part.value(function, given))
     except (Exception, SystemExit, TooLong):  # whatever a change leads to
         return None
+
+
+def keeps_arguments(part: Part, function: Function, arguments: tuple[Any, ...]) -> bool:
+    """Whether a function leaves its arguments as they are; yes where a part calls it in its own way."""
+    given = copied(arguments)
+    _called(part, function, given)
+    return part.call is not None or all(map(unchanged, arguments, given))
 
 
 def shown(error: BaseException) -> str:
@@ -84,20 +84,6 @@ def shown(error: BaseException) -> str:
 def copied(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return the arguments with copies of the arrays and lists."""
     return tuple(copy.deepcopy(x) if isinstance(x, np.ndarray | list) else x for x in arguments)
-
-
-def keeps_arguments(part: Part, function: Function, arguments: tuple[Any, ...]) -> bool:
-    """Whether a function leaves its arguments as they are; yes where a part calls it in its own way."""
-    if part.call is not None:
-        return True
-    given: list[Any] = []
-
-    def noted(*taken: Any) -> Any:
-        given.extend(taken)
-        return function(*taken)
-
-    call_or_none(part, noted, arguments)
-    return all(map(unchanged, arguments, given))
 
 
 def cheapest_case(cases: Mapping[int, tuple[Any, ...]]) -> int:
@@ -115,19 +101,15 @@ def _size(x: Any) -> int:
 @contextmanager
 def muted() -> Iterator[None]:
     """Drop what functions print, and libraries past Python: a small change may give them what they complain about."""
-    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        if os.name != "posix":
-            yield
-            return
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()), open(os.devnull, "w") as nothing:
         for stream in filter(None, (sys.__stdout__, sys.__stderr__)):
             stream.flush()
-        kept, nothing = [os.dup(1), os.dup(2)], os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nothing, 1)
-        os.dup2(nothing, 2)
+        kept = [(number, os.dup(number)) for number in (1, 2) if os.name == "posix"]
+        for number, _ in kept:
+            os.dup2(nothing.fileno(), number)
         try:
             yield
         finally:
-            for descriptor, number in zip(kept, (1, 2)):
-                os.dup2(descriptor, number)
-            for descriptor in (*kept, nothing):
-                os.close(descriptor)
+            for number, copy_of_it in kept:
+                os.dup2(copy_of_it, number)
+                os.close(copy_of_it)

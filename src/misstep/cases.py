@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterator
 from itertools import combinations
 from typing import Any
 
@@ -14,23 +13,17 @@ from .course import Course
 from .domains import Domain
 from .errors import CourseError
 from .exercise import Part
+from .search import Arguments
 
 __all__ = ["case", "cases", "every_case", "further_cases", "special_cases"]
 
-Arguments = tuple[Any, ...]
 
 ANGLES_RAD = (0, np.pi, 8e-2, 1e-3, 1e-6, np.pi - 1e-2, np.pi - 1e-6)
 """Turns at which a formula may have a case of its own, and turns just beside them."""
 
-INVISIBLE_ANGLE_RAD = 2e-8
-"""A turn of which the cosine is 1."""
-
-SCALES = (0.0, 1e-6, 1e-3, 3.0, 300.0)
-"""Factors of sizes: nothing at all, small numbers, and large ones."""
-
-MAX_SCALE_OF_MODEL = 3.0
-"""A robot that races would cost digits."""
-
+INVISIBLE_ANGLE_RAD = 2e-8  # a turn of which the cosine is 1
+SCALES = (0.0, 1e-6, 1e-3, 3.0, 300.0)  # factors of sizes: nothing at all, small numbers, and large ones
+MAX_SCALE_OF_MODEL = 3.0  # a robot that races would cost digits
 TINY_SCALES = (4e-9, 2e-11)
 """Factors that leave nothing which `np.allclose` would see beside zero, and more than rounding."""
 
@@ -49,18 +42,14 @@ def further_cases(course: Course, part: Part, seed: int) -> list[Arguments]:
     Where an angle is zero or π, a formula may divide by zero; a function may have a branch for what is small, and begin
     it too early; and what it keeps from one call to the next shows when the same sizes come again.
     """
-    drawn = cases(part, seed)
-    if not drawn[0]:
+    drawn = cases(part, seed)[0]
+    if not drawn:
         return []
-    domains = course.domains_of(part)
-    largest = MAX_SCALE_OF_MODEL if course.has_model(part) else SCALES[-1]
-    turns = [_each(domains, drawn[0], "turned", _quaternion(angle)) for angle in ANGLES_RAD]
-    sizes = [_each(domains, drawn[0], "scaled", factor) for factor in SCALES if factor <= largest]
-    return [
-        *(new for new in turns if _differ(new, drawn[0])),
-        *(new for new in sizes if _differ(new, drawn[0]) and _answered(part, new)),
-        *part.cases(_generator(part, seed, 1)),
-    ]
+    largest = MAX_SCALE_OF_MODEL if course.model in part.names else SCALES[-1]
+    turns = [_each(course, part, drawn, "turned", _quaternion(angle)) for angle in ANGLES_RAD]
+    sizes = [_each(course, part, drawn, "scaled", factor) for factor in SCALES if factor <= largest]
+    sizes = [new for new in sizes if _answered(part, new)]
+    return [*(new for new in (*turns, *sizes) if _differ(new, drawn)), *part.cases(_generator(part, seed, 1))]
 
 
 def special_cases(course: Course, part: Part, seed: int) -> list[Arguments]:
@@ -73,12 +62,15 @@ def special_cases(course: Course, part: Part, seed: int) -> list[Arguments]:
     drawn = cases(part, seed)[0]
     if not drawn:
         return []
-    domains = course.domains_of(part)
-    found = [_each(domains, drawn, "scaled", factor) for factor in TINY_SCALES]
-    found.append(_each(domains, drawn, "turned", _quaternion(INVISIBLE_ANGLE_RAD)))
-    for k, (domain, x) in enumerate(zip(domains, drawn)):
+    found = [_each(course, part, drawn, "scaled", factor) for factor in TINY_SCALES]
+    found.append(_each(course, part, drawn, "turned", _quaternion(INVISIBLE_ANGLE_RAD)))
+    for k, (domain, x) in enumerate(zip(_domains(course, part), drawn)):
         found += [(*drawn[:k], other, *drawn[k + 1 :]) for other in domain.simple(x)]
-    found += _in_whole_numbers(domains, drawn, MAX_WHOLE_OF_MODEL if course.has_model(part) else MAX_WHOLE)
+    largest = MAX_WHOLE_OF_MODEL if course.model in part.names else MAX_WHOLE
+    whole = _each(course, part, drawn, "whole", largest)
+    others = [k for k, (a, b) in enumerate(zip(whole, drawn)) if a is not b]
+    for n in sorted({1, 2, len(others) - 1, len(others)} - {0, -1}):  # one or two of them, all but one, and all
+        found += [tuple(whole[k] if k in some else x for k, x in enumerate(drawn)) for some in combinations(others, n)]
     found += course.special_cases(part, drawn, _generator(part, seed, 3))
     edges = part.edges(_generator(part, seed, 2))
     return [*edges, *(new for new in found if _differ(new, drawn) and _answered(part, new))]
@@ -90,15 +82,7 @@ def every_case(course: Course, part: Part, seed: int) -> list[Arguments]:
 
 
 def case(course: Course, name: str, number: int = 0, *, seed: int = 0) -> Arguments:
-    """Return the arguments of one of the cases that an answer is tried on.
-
-    Raises
-    ------
-    UnknownName
-        If no exercise has a function of that name.
-    CourseError
-        If there are fewer cases, or the seed is negative.
-    """
+    """Return the arguments of one of the cases that an answer is tried on."""
     part = course.find_part(name)[1]
     if seed < 0:
         raise CourseError(f"seed: expected a whole number, 0 or more, got {seed}")
@@ -108,21 +92,16 @@ def case(course: Course, name: str, number: int = 0, *, seed: int = 0) -> Argume
     return found[number]
 
 
-def _each(domains: list[Domain], drawn: Arguments, how: str, by: Any) -> Arguments:
-    return tuple(getattr(domain, how)(x, by) for domain, x in zip(domains, drawn))
+def _domains(course: Course, part: Part) -> list[Domain]:
+    return [course.domains.get(name, Domain()) for name in part.names]
+
+
+def _each(course: Course, part: Part, drawn: Arguments, how: str, by: Any) -> Arguments:
+    return tuple(getattr(domain, how)(x, by) for domain, x in zip(_domains(course, part), drawn))
 
 
 def _differ(new: Arguments, drawn: Arguments) -> bool:
     return any(a is not b for a, b in zip(new, drawn)) or len(new) != len(drawn)
-
-
-def _in_whole_numbers(domains: list[Domain], drawn: Arguments, largest: int) -> Iterator[Arguments]:
-    """Yield the arguments with all that may be in whole numbers, with one or two of them, and with all but one."""
-    whole = _each(domains, drawn, "whole", largest)
-    others = [k for k, (a, b) in enumerate(zip(whole, drawn)) if a is not b]
-    for n in sorted({1, 2, len(others) - 1, len(others)} - {0, -1}):
-        for chosen in combinations(others, n):
-            yield tuple(whole[k] if k in chosen else x for k, x in enumerate(drawn))
 
 
 def _quaternion(angle: float) -> Any:

@@ -11,34 +11,17 @@ from numpy.typing import NDArray
 from .exercise import Part, Quantity
 
 __all__ = [
-    "FLOOR",
-    "Array",
-    "Value",
-    "agree",
-    "close",
-    "copied_results",
-    "is_one_array",
-    "pieces",
-    "plain",
-    "to_do",
-    "unchanged",
-    "values",
+    *("FLOOR", "Array", "Value", "agree", "close", "copied_results", "differing", "is_one_array"),
+    *("plain", "to_do", "unchanged", "values"),
 ]
 
 Array = NDArray[Any]
 
-FLOOR = 1e-3
-"""Entries below this count as zero: an exact 0 is as good as 1e-17."""
+FLOOR = 1e-3  # entries below this count as zero: an exact 0 is as good as 1e-17
 
 
-LARGEST_INTEGER = 2**1023
-"""Whole numbers beyond cannot be converted to a float."""
-
-DEEPEST = 20
-"""Lists in lists of an answer; a list may also be in itself."""
-
-Known = dict[int, tuple[Any, Any]]
-"""By the identity of an object: the object, and what it has become."""
+LARGEST_INTEGER = 2**1023  # whole numbers beyond cannot be converted to a float
+DEEPEST = 20  # lists in lists of an answer; a list may also be in itself
 
 
 class Value(NamedTuple):
@@ -58,36 +41,34 @@ def plain(answer: Any) -> Any:
     return _plain(answer, {}, 0)
 
 
-def _plain(x: Any, known: Known, depth: int) -> Any:
+def _plain(x: Any, known: dict[int, tuple[Any, Any]], depth: int) -> Any:
+    """Convert an object once; `known` has, by its identity, the object itself and what it has become."""
     kind = type(x)
     if kind in (type(None), type(...), bool, float, complex, str) or issubclass(kind, np.number | np.bool_):
         return x
-    if kind is int or (kind is np.ndarray and x.dtype.kind in "biufc"):
-        return x if kind is not int or abs(x) < LARGEST_INTEGER else _stand_in(x)
+    if (kind is int and abs(x) < LARGEST_INTEGER) or (kind is np.ndarray and x.dtype.kind in "biufc"):
+        return x
     if id(x) not in known:
-        known[id(x)] = x, _stand_in(x)  # what it is inside itself; x is kept, and with it its identity
-        known[id(x)] = x, _converted(x, known, depth)
+        stand_in = type(kind.__name__, (), {})()
+        known[id(x)] = x, stand_in  # what it is inside itself
+        try:
+            found = None if kind is int else _converted(x, known, depth)
+        except Exception:
+            found = None
+        known[id(x)] = x, stand_in if found is None else found
     return known[id(x)][1]
 
 
-def _converted(x: Any, known: Known, depth: int) -> Any:
+def _converted(x: Any, known: dict[int, tuple[Any, Any]], depth: int) -> Any:
     kind = type(x)
-    try:
-        if issubclass(kind, str):
-            return str.__str__(x)
-        if issubclass(kind, list | tuple | Sequence) and not issubclass(kind, bytes) and depth < DEEPEST:
-            items = [_plain(item, known, depth + 1) for item in x]
-            same = kind in (list, tuple) and all(a is b for a, b in zip(items, x))
-            return x if same else tuple(items) if issubclass(kind, tuple) else items
-        array = _array(x)
-    except Exception:
-        array = None
-    return _stand_in(x) if array is None else array
-
-
-def _stand_in(x: Any) -> Any:
-    """Return an empty object of a class that has the name of the class of another object."""
-    return type(type(x).__name__, (), {})()
+    if issubclass(kind, str):
+        return str.__str__(x)
+    if not issubclass(kind, list | tuple | Sequence) or issubclass(kind, bytes) or depth >= DEEPEST:
+        return _array(x)
+    items = [_plain(item, known, depth + 1) for item in x]
+    if kind in (list, tuple) and all(a is b for a, b in zip(items, x)):
+        return x
+    return tuple(items) if issubclass(kind, tuple) else items
 
 
 def to_do(answer: Any) -> bool:
@@ -97,19 +78,15 @@ def to_do(answer: Any) -> bool:
     return answer is Ellipsis
 
 
-def pieces(answer: Any, returns: Sequence[Quantity]) -> Sequence[Any] | None:
-    """Split an answer into the things that were asked for; None if there are not as many."""
-    if len(returns) == 1:
-        return [answer]
-    if (isinstance(answer, np.ndarray) and answer.ndim == 0) or not hasattr(answer, "__len__"):
-        return None
-    return list(answer) if len(answer) == len(returns) and not isinstance(answer, str | dict) else None
-
-
 def values(answer: Any, returns: Sequence[Quantity]) -> list[Value] | None:
-    """Return what a function returned, piece by piece, or None if there are not as many pieces as asked for."""
-    split = pieces(answer, returns)
-    return None if split is None else [Value(q, _array(x), x) for q, x in zip(returns, split)]
+    """Return what a function returned, piece by piece; None where there are not as many pieces as asked for."""
+    if len(returns) == 1:
+        answer = [answer]
+    elif isinstance(answer, str | dict) or not hasattr(answer, "__len__"):
+        return None
+    if getattr(answer, "ndim", 1) == 0 or len(answer) != len(returns):
+        return None
+    return [Value(q, _array(x), x) for q, x in zip(returns, answer)]
 
 
 def _array(x: Any) -> Array | None:
@@ -134,15 +111,17 @@ def close(a: Value, b: Value, rtol: float) -> bool:
     """Whether two values are the same, to a part of the largest entry of the second."""
     if a.array is None or b.array is None:
         return isinstance(a.raw, str) and isinstance(b.raw, str) and a.raw.strip() == b.raw.strip()
-    if a.array.shape != b.array.shape:
-        return False
-    if a.array.dtype.kind == "b" or b.array.dtype.kind == "b":
-        return a.array.dtype.kind == b.array.dtype.kind and bool((a.array == b.array).all())
-    finite = np.isfinite(a.array)
-    if not np.array_equal(a.array[~finite], b.array[~finite], equal_nan=True):
-        return False
-    scale = np.abs(b.array[np.isfinite(b.array)]).max(initial=FLOOR)
-    return bool((np.abs(a.array[finite] - b.array[finite]) <= rtol * scale).all())
+    same_kind = (a.array.dtype.kind == "b") == (b.array.dtype.kind == "b")
+    return same_kind and a.array.shape == b.array.shape and not differing(a.array, b.array, rtol).any()
+
+
+def differing(a: Array, b: Array, rtol: float) -> Array:
+    """Return which entries of an array differ from those of another of its shape, by a part of its largest entry."""
+    if a.dtype.kind == "b" or b.dtype.kind == "b":
+        return np.asarray(a != b)
+    within = rtol * np.abs(b[np.isfinite(b)]).max(initial=FLOOR)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~((np.abs(a - b) <= within) | (a == b) | (np.isnan(a) & np.isnan(b))))
 
 
 def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bool:

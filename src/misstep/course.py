@@ -15,7 +15,7 @@ import numpy as np
 
 from .diagnose import Field
 from .domains import Domain
-from .errors import check_known
+from .errors import UnknownName, check_known
 from .exercise import Exercise, Part
 from .rules import Rules
 from .text import Text
@@ -25,10 +25,6 @@ __all__ = ["Course"]
 NO_RULES, EMPTY = Rules(), Text("", "")
 
 SpecialCases = Callable[[Part, tuple[Any, ...], np.random.Generator], Sequence[tuple[Any, ...]]]
-
-
-def _none(part: Part, drawn: tuple[Any, ...], rng: np.random.Generator) -> Sequence[tuple[Any, ...]]:
-    return ()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -63,6 +59,8 @@ class Course:
         How a student's file begins; ``{title}``, ``{file}`` and ``{first}`` are those of its section.
     title_of : callable
         From a section to its title as it stands there.
+    unknown : type
+        The error that a name raises which is not known.
     """
 
     module: str
@@ -71,7 +69,7 @@ class Course:
     field: Field
     domains: Mapping[str, Domain] = dataclass_field(default_factory=dict)
     model: str = ""
-    special_cases: SpecialCases = _none
+    special_cases: SpecialCases = lambda part, drawn, rng: ()
     rules: Rules = NO_RULES
     alias: str = ""
     command: str = "misstep"
@@ -80,6 +78,7 @@ class Course:
     state_file: str = ".misstep.json"
     opening: Text = EMPTY
     title_of: Callable[[str], Text] | None = None
+    unknown: type[Exception] = UnknownName
 
     @property
     def package_name(self) -> str:
@@ -110,14 +109,8 @@ class Course:
         return {}
 
     def exercise(self, number: str) -> Exercise:
-        """Return an exercise by its number.
-
-        Raises
-        ------
-        UnknownName
-            If there is no such exercise; the message lists the nearest numbers.
-        """
-        check_known("exercise", number, self.numbers)
+        """Return an exercise by its number; the error where there is none lists the nearest."""
+        check_known("exercise", number, self.numbers, self.unknown)
         if number not in self._exercises:
             found = import_module(f"{self.items}.ex_{number.replace('.', '_')}").EXERCISE
             self._exercises[number] = replace(found, course=self)
@@ -133,13 +126,7 @@ class Course:
         return [self.exercise(number) for number in self.numbers if number.rpartition(".")[0] == section]
 
     def asked_for(self, name: str) -> Exercise:
-        """Return an exercise by its number, or by the name of one of its functions.
-
-        Raises
-        ------
-        UnknownName
-            If there is neither.
-        """
+        """Return an exercise by its number, or by the name of one of its functions."""
         is_number = name in self.numbers or name[:1].isdigit() or name.startswith(tuple(self.sections))
         return self.exercise(name) if is_number else self.find_part(name)[0]
 
@@ -157,21 +144,6 @@ class Course:
         return {part.name: (exercise, part) for exercise in self.exercises for part in exercise.parts}
 
     def find_part(self, name: str) -> tuple[Exercise, Part]:
-        """Return the exercise to which a function of that name belongs, and its part.
-
-        Raises
-        ------
-        UnknownName
-            If no exercise asks for such a function.
-        """
-        check_known("function of an exercise", name, self._parts)
+        """Return the exercise to which a function of that name belongs, and its part."""
+        check_known("function of an exercise", name, self._parts, self.unknown)
         return self._parts[name]
-
-    def domains_of(self, part: Part) -> list[Domain]:
-        """Return what the arguments of a part are, in order."""
-        names = [name.partition("=")[0] for name in part.arguments.split(", ")]
-        return [self.domains.get(name, Domain()) for name in names]
-
-    def has_model(self, part: Part) -> bool:
-        """Whether a part has an argument that is large."""
-        return bool(self.model) and self.model in part.arguments.split(", ")

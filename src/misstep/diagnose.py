@@ -6,45 +6,52 @@ import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 from types import ModuleType
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from .calls import muted
 from .compare import values
-from .differences import differences, structure
-from .evidence import Arguments, Evidence
+from .differences import differences, first_wrong_line, structure
 from .exercise import Part, Slip
 from .grammar import Edit, Habits
-from .messages import message
-from .program import MemoizedPackage, Program, source_with_helpers
-from .search import Found, Hypothesis, mutants, search, second_edits, slips
-from .text import Text
-from .tracing import first_wrong_line
+from .program import Program, source_with_helpers
+from .search import Arguments, Evidence, Found, Hypothesis, mutants, search, slips
+from .text import Text, say
+from .verdict import How, Verdict
 
-__all__ = ["Diagnosis", "Field", "How", "diagnose"]
+__all__ = ["Field", "diagnose"]
 
-How = Literal["slip", "line", "reference", "structure", "located", "numbers"]
-
-MAX_CPU_S = {"slip": 4.0, "own": 2.2, "own of slip": 1.2, "reference": 1.0, "second": 2.0}
+MAX_CPU_S = {"slip": 4.0, "own": 2.2, "own of slip": 1.2, "reference": 1.0}
 """Seconds of CPU time that each search may take, beside its number of trials."""
 
-MAX_NAMED = 3
-"""Slips or changes that one message names."""
-
-MAX_LINES = 4
-"""Lines about how the results differ."""
-
-MAX_ADDED_CHARS = 12
-"""Of an edit that is shown as the place of a slip."""
-
-NOTICEABLE = 1e-6
-"""The least residual of a property that counts, for answers of the size of 1."""
-
+MAX_NAMED = 3  # slips or changes that one message names
+MAX_LINES = 4  # about how the results differ
+MAX_ADDED_CHARS = 12  # of an edit that is shown as the place of a slip
+NOTICEABLE = 1e-6  # the least residual of a property that counts, for answers of the size of 1
+PROPERTY_ERRORS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
 NO_HABITS = Habits()
 
-PROPERTY_ERRORS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError, np.linalg.LinAlgError)
+EDITS = {
+    "replace": Text("`{after}` in place of `{before}`", "用 `{after}` 代替 `{before}`"),
+    "in loop": Text("`{before}` in the loop, not before it", "把 `{before}` 放进循环之内"),
+    "after loop": Text("`{before}` after the loop, not in it", "把 `{before}` 放到循环之后"),
+    "sum": Text("`{before}` added up in the loop, from zero", "在循环中从零开始累加 `{before}`"),
+    "separate": Text("an array for each name in `{before}`", "`{before}` 中每个名字各建一个数组"),
+    "drop": Text("`{before}` left out", "去掉 `{before}`"),
+}
+"""What an edit does, by its `how`."""
+
+ANY = Text("Your numbers fit any of these slips:", "你的数值等于犯下以下任一错误的结果：")
+OWN = Text("Line {line}: with {edit}, it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。")
+OWN_ANY = Text("Each of these changes alone makes it right{cases}:", "下列改动任取其一，{cases}就正确：")
+REFERENCE = Text(
+    "Your numbers are those of a right solution that has {edit}.", "你的数值等于把正确解法如此改动：{edit}。"
+)
+EXCHANGED = Text("{first} and {second} are exchanged.", "{first} 与 {second} 互换了。")
+BROKEN = Text("This holds for every right answer, but not for yours: {x}", "正确答案都满足而你的不满足：{x}")
 
 
 @dataclass(frozen=True)
@@ -66,26 +73,6 @@ class Field:
     package: ModuleType | None = None
 
 
-@dataclass(frozen=True)
-class Diagnosis:
-    """What is wrong with an answer.
-
-    Attributes
-    ----------
-    how : {"slip", "line", "reference", "structure", "located", "numbers"}
-        By what it was found: a slip of the list; an edit of the student's own code that makes it right; an edit of
-        a right solution that gives the same numbers; the type or the shape of what is returned;
-        else by where or how the numbers differ, or only by that they do.
-    lines : tuple of Text
-    slips : tuple of str
-        The slips that give the same numbers.
-    """
-
-    how: How
-    lines: tuple[Text, ...]
-    slips: tuple[str, ...] = ()
-
-
 def diagnose(
     part: Part,
     function: Callable[..., Any],
@@ -95,8 +82,8 @@ def diagnose(
     *,
     special_cases: Callable[[], Sequence[Arguments]] = tuple,
     search_code: bool = True,
-) -> Diagnosis:
-    """Return what is wrong with a function.
+) -> Verdict:
+    """Return what is wrong with a function: by what it was found, the lines of its message, and the slips.
 
     Parameters
     ----------
@@ -124,12 +111,11 @@ class _Diagnoser:
 
     def __init__(self, evidence: Evidence, field: Field, search_code: bool) -> None:
         self.evidence, self.part, self.field, self.search_code = evidence, evidence.part, field, search_code
-        self.package = None if field.package is None else MemoizedPackage(field.package)
 
-    def best(self) -> Diagnosis:
+    def best(self) -> Verdict:
         """Return the first explanation in the order in which they are likely."""
         producers = (self._of_slips, self._of_order, self._of_results, self._of_own_code, self._of_reference)
-        for producer in (*producers, self._of_two_edits, self._of_structure):
+        for producer in (*producers, self._of_structure):
             found = producer()
             if found is not None:
                 return found
@@ -141,7 +127,7 @@ class _Diagnoser:
     def listed(self) -> Found:
         """The slips of the list that give the student's numbers."""
         evidence = self.evidence
-        return search(evidence, slips(evidence), evidence.answers, evidence.right, max_cpu_s=MAX_CPU_S["slip"])
+        return search(evidence, slips(self.part), evidence.answers, max_cpu_s=MAX_CPU_S["slip"])
 
     @cached_property
     def program(self) -> Program | None:
@@ -150,10 +136,9 @@ class _Diagnoser:
         source = source_with_helpers(function) if self.search_code and not evidence.is_typed else None
         if source is None:
             return None
-        names = [x.partition("=")[0] for x in self.part.arguments.split(", ")]
-        given = dict(zip(names, evidence.cases[evidence.first]))
+        given = dict(zip(self.part.names, evidence.cases[evidence.first]))
         try:
-            program = Program(function, source=source, package=self.package, given=given)
+            program = Program(function, source=source, given=given)
             return program.trace(lambda f: evidence.call(f, evidence.first))
         except Exception:  # it does not run again as it did
             return None
@@ -166,7 +151,7 @@ class _Diagnoser:
         evidence = self.evidence
         seconds = MAX_CPU_S["own of slip" if self.listed.whole else "own"]
         edits = mutants(self.program, "own", self.field.habits, evidence.chance_rules)
-        return search(evidence, edits, evidence.right, evidence.answers, max_cpu_s=seconds, is_cure=True)
+        return search(evidence, edits, evidence.right, max_cpu_s=seconds)
 
     @cached_property
     def solutions(self) -> list[Program]:
@@ -175,8 +160,7 @@ class _Diagnoser:
         for way in (self.part.solution, *self.part.ways):
             for listing in (way, *(self.part.beside if way is self.part.solution else ())):
                 if not inspect.isclass(listing):
-                    caller = None if listing is way else way
-                    program = Program(listing, caller=caller, package=self.package)
+                    program = Program(listing, caller=None if listing is way else way)
                     found.append(program.trace(lambda f: self.evidence.call(f, self.evidence.first)))
         return found
 
@@ -191,8 +175,7 @@ class _Diagnoser:
             return found
         for program in self.solutions:
             edits = mutants(program, "reference", self.field.habits, evidence.chance_rules)
-            seconds = MAX_CPU_S["reference"]
-            one = search(evidence, edits, evidence.answers, evidence.right, max_cpu_s=seconds)
+            one = search(evidence, edits, evidence.answers, max_cpu_s=MAX_CPU_S["reference"])
             if one.whole:
                 return one
             found.of_result = {**one.of_result, **found.of_result}
@@ -200,103 +183,87 @@ class _Diagnoser:
 
     # ---------------------------------------------------------------- what may be reported
 
-    def _of_structure(self) -> Diagnosis | None:
+    def _of_structure(self) -> Verdict | None:
         found = structure(self.part, self.evidence.answers, self.evidence.right)
-        return None if found is None else Diagnosis("structure", (found,))
+        return None if found is None else _wrong("structure", found)
 
-    def _of_order(self) -> Diagnosis | None:
+    def _of_order(self) -> Verdict | None:
         """Two results exchanged."""
         evidence = self.evidence
-        wrong = sorted(evidence.wrong) if evidence.is_split else []
-        for i in wrong:
-            for j in (j for j in wrong if j > i):
-                turned = [_exchanged(answer, i, j) for answer in evidence.answers]
-                if all(all(evidence.same(*three)) for three in zip(turned, evidence.right, evidence.cases)):
-                    first, second = (self.part.returns[k].title for k in (i, j))
-                    return Diagnosis("structure", (message("exchanged", first=first, second=second),))
+        for i, j in combinations(sorted(evidence.wrong) if evidence.is_split else [], 2):
+            turned = [_exchanged(answer, i, j) for answer in evidence.answers]
+            if all(all(evidence.same(*three)) for three in zip(turned, evidence.right, evidence.cases)):
+                first, second = (self.part.returns[k].title for k in (i, j))
+                return _wrong("structure", EXCHANGED.fill(first=first, second=second))
         return None
 
-    def _of_slips(self) -> Diagnosis | None:
+    def _of_slips(self) -> Verdict | None:
         names = [x.slip for x in self.listed.whole]
         if not names:
             return None
-        lines = [message("slip", **self._slip(names[0]))]
+        lines = [say("Your numbers fit this slip: {x}", "你的数值等于犯下这个错误的结果：{x}", x=self._slip(names[0]))]
         if len(names) > 1:
-            each = [message("one of the slips", **self._slip(name)) for name in names[:MAX_NAMED]]
-            lines = [message("slips"), *each]
+            lines = [ANY, *(say("  - {x}", "  - {x}", x=self._slip(name)) for name in names[:MAX_NAMED])]
         edit = next((x.edit for x in self.own.whole if x.edit and _is_plain(x.edit)), None)
         if edit is not None:
-            lines.append(message("own of slip", line=edit.line, edit=edit_text(edit)))
-        return Diagnosis("slip", tuple(lines), tuple(names))
+            lines.append(say("Line {line}: {edit}.", "第 {line} 行：{edit}。", line=edit.line, edit=edit_text(edit)))
+        return _wrong("slip", *lines, slips=names)
 
-    def _of_results(self) -> Diagnosis | None:
+    def _of_results(self) -> Verdict | None:
         """Explain each wrong result by itself, by slips alone or by slips and edits."""
         evidence = self.evidence
-        if not evidence.is_split:
+        if not evidence.is_split or not evidence.wrong:
             return None
         found = dict(self.listed.of_result)
         if not evidence.wrong <= found.keys():
             if self.own.whole or self.reference.whole:
                 return None
             found = {**self.reference.of_result, **self.own.of_result, **found}
-        if not evidence.wrong or not evidence.wrong <= found.keys():
+        if not evidence.wrong <= found.keys():
             return None
         each = {j: found[j][0] for j in sorted(evidence.wrong)}
-        lines = [
-            message("in result", name=self.part.returns[j].title, finding=self._of_result(hypothesis))
-            for j, hypothesis in each.items()
-        ]
-        names = tuple(dict.fromkeys(x.slip for x in each.values() if x.slip))
+        named = [(self.part.returns[j].title, self._of_result(x)) for j, x in each.items()]
+        lines = [say("In {name}: {x}", "在 {name} 中：{x}", name=name, x=x) for name, x in named]
+        names = list(dict.fromkeys(x.slip for x in each.values() if x.slip))
         how: How = "slip" if names else "line" if any(x.origin == "own" for x in each.values()) else "reference"
-        return Diagnosis(how, tuple(lines), names)
+        return _wrong(how, *lines, slips=names)
 
     def _of_result(self, hypothesis: Hypothesis) -> Text:
         if hypothesis.edit is None:
-            return message("slip of result", **self._slip(hypothesis.slip))
-        edit = hypothesis.edit
-        return message(f"{hypothesis.origin} of result", line=edit.line, edit=edit_text(edit))
+            return self._slip(hypothesis.slip)
+        text = Text("that of a right solution that has {edit}.", "等于把正确解法如此改动的结果：{edit}。")
+        if hypothesis.origin == "own":
+            text = Text("line {line}, {edit} makes it right.", "第 {line} 行，{edit}，就正确。")
+        return text.fill(line=hypothesis.edit.line, edit=edit_text(hypothesis.edit))
 
-    def _of_own_code(self) -> Diagnosis | None:
-        edits = [x.edit for x in self.own.whole if x.edit]
+    def _of_own_code(self) -> Verdict | None:
+        edits = [x.edit for x in self.own.whole if x.edit][:MAX_NAMED]
         if not edits:
             return None
-        each = [{"line": x.line, "edit": edit_text(x)} for x in edits[:MAX_NAMED]]
-        lines = [message("own", cases=self._cases, **each[0])]
+        n, evidence = len(self.evidence.cases), self.evidence
+        cases = Text(f" in all {n} cases", f"全部 {n} 组数据") if n > 1 else Text("", "")
+        each = [{"line": x.line, "edit": edit_text(x)} for x in edits]
+        lines = [OWN.fill(cases=cases, **each[0])]
         if len(each) > 1:
-            lines = [message("own any", cases=self._cases), *(message("own one", **x) for x in each)]
-        raised = self.evidence.answers[self.evidence.first] is None
-        shown = None if raised else structure(self.part, self.evidence.answers, self.evidence.right)
-        return Diagnosis("line", (*([shown] if shown else []), *lines))
+            lines = [OWN_ANY.fill(cases=cases)]
+            lines += [say("  - line {line}: {edit}", "  - 第 {line} 行：{edit}", **x) for x in each]
+        has_raised = evidence.answers[evidence.first] is None
+        shown = None if has_raised else structure(self.part, evidence.answers, evidence.right)
+        return _wrong("line", *([shown] if shown else []), *lines)
 
-    def _of_reference(self) -> Diagnosis | None:
+    def _of_reference(self) -> Verdict | None:
         edit = next((x.edit for x in self.reference.whole if x.edit), None)
-        return None if edit is None else Diagnosis("reference", (message("reference", edit=edit_text(edit)),))
+        return None if edit is None else _wrong("reference", REFERENCE.fill(edit=edit_text(edit)))
 
-    def _of_two_edits(self) -> Diagnosis | None:
-        """Two edits of the student's code that together make it right."""
-        evidence = self.evidence
-        often = 2 * len(evidence.wrong_cases) >= len(evidence.cases)
-        if self.program is None or not self.own.partial or evidence.chance_rules or not often:
-            return None
-        found = second_edits(evidence, self.program, self.own, self.field.habits, MAX_CPU_S["second"])
-        for first, second in ((x.after, x.edit) for x in found):
-            if first and second:
-                given = {"a": first.line, "first": edit_text(first), "b": second.line, "second": edit_text(second)}
-                return Diagnosis("line", (message("own both", cases=self._cases, **given),))
-        return None
-
-    def _located(self) -> Diagnosis:
+    def _located(self) -> Verdict:
         """Where it goes wrong, and how the numbers differ."""
         evidence = self.evidence
-        first = evidence.first
-        line = None
+        line, first = None, evidence.first
         if self.program is not None:
             line = first_wrong_line(self.program, evidence.cases[first], self.solutions)
-        property_ = next(self._broken_properties(), None)
         shown, telling = differences(self.part, evidence.answers[first], evidence.right[first])
-        lines = [x for x in (line, property_) if x is not None]
-        how: How = "located" if lines or telling else "numbers"
-        return Diagnosis(how, (*lines, *shown[:MAX_LINES]))
+        lines = [x for x in (line, next(self._broken_properties(), None)) if x is not None]
+        return _wrong("located" if lines or telling else "numbers", *lines, *shown[:MAX_LINES])
 
     def _broken_properties(self) -> Iterator[Text]:
         """Yield the properties of right answers that the first wrong one lacks."""
@@ -309,17 +276,17 @@ class _Diagnoser:
             except PROPERTY_ERRORS:
                 return
             if np.isfinite(own).all() and (own > NOTICEABLE).any() and (of_right <= NOTICEABLE).all():
-                yield message("broken", text=item.text)
+                yield BROKEN.fill(x=item.text)
 
-    def _slip(self, name: str) -> dict[str, Text]:
+    def _slip(self, name: str) -> Text:
         """Return the title and the reason of a slip, those of the part where it has its own."""
         slip = self.field.slips[name]
-        return {"title": self.part.titles.get(name, slip.title), "why": self.part.reasons.get(name, slip.why)}
+        title, why = self.part.titles.get(name, slip.title), self.part.reasons.get(name, slip.why)
+        return Text(f"{title.en}. {why.en}", f"{title.zh}。{why.zh}")
 
-    @property
-    def _cases(self) -> Text:
-        n = len(self.evidence.cases)
-        return message("in all", n=n) if n > 1 else message("in one")
+
+def _wrong(how: How, *lines: Text, slips: Sequence[str] = ()) -> Verdict:
+    return Verdict("wrong", lines, tuple(slips), how=how)
 
 
 def _exchanged(answer: Any, i: int, j: int) -> Any:
@@ -336,5 +303,5 @@ def _is_plain(edit: Edit) -> bool:
 def edit_text(edit: Edit) -> Text:
     """Describe an edit: what is put in place of what."""
     n = len(edit.changes)
-    key = f"edit {edit.how}" if n == 1 else "edit replace all"
-    return message(key, before=edit.before, after=edit.after, n=n)
+    text = EDITS["replace" if n > 1 else edit.how].fill(before=edit.before, after=edit.after)
+    return Text(f"{text.en}, in {n} places", f"{text.zh}（共 {n} 处）") if n > 1 else text

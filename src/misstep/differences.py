@@ -1,113 +1,95 @@
-"""How wrong results differ from right ones: type, shape, sign, transpose, factor, triangle, places, digits."""
+"""How wrong results differ from right ones, and the first line of a program that goes wrong."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import ast
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from .compare import FLOOR, Array, Value, pieces, values
+from .compare import FLOOR, Array, Value, values
 from .exercise import Part
-from .messages import message
-from .text import Text
+from .program import Program, equal, text_of
+from .text import Text, say
 
-__all__ = ["REPORTED_FACTORS", "differences", "structure"]
+__all__ = ["differences", "first_wrong_line", "structure"]
 
-REPORTED_FACTORS = (2, 3, 4, 6, 8, 10, 12, 100, 1000, 180 / np.pi, np.pi, 2 * np.pi)
-"""Factors that show the slip. Others are chance, and would give a number away."""
+MAX_LISTED = 3  # wrong entries that are listed
+NEARLY = 5e-3  # relative error of an answer of which some digits are right
+SINGLE_ERROR = (5e-9, 2e-6)  # relative errors, of the largest entry, that single precision leaves
+TRACE_RTOL = 1e-9
 
-MAX_LISTED = 3
-"""Wrong entries that are listed."""
-
-NEARLY = 5e-3
-"""Relative error of an answer of which some digits are right."""
-
-SINGLE_ERROR = (5e-9, 2e-6)
-"""Relative errors, of the largest entry, that single precision leaves."""
+NO_RETURN = Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`？")
+SOMETIMES_NONE = Text(
+    "In some cases it returned None: is a `return` missing?", "有时返回了 None：是不是漏了 `return`？"
+)
+SINGLE = Text("It is right to about 7 digits only: single precision.", "只有约 7 位正确：这是单精度。")
+COUNT = Text("It must return {n} things: {names}. It returned {got}.", "应返回 {n} 个量：{names}。实际返回 {got}。")
+FIXED_SIZE = Text("{name} has the shape {shape} in all cases.", "在所有情形中 {name} 的形状都是 {shape}。")
+TYPE = Text("{name} must be {what}, not {got}.", "{name} 应为{what}，而不是 {got}。")
+SHAPE = Text("{name} has the shape {got}; it must be {right}.", "{name} 的形状是 {got}，应为 {right}。")
+NOT_FINITE = Text("{name} has entries that are not finite numbers.", "{name} 含有不是有限数的元素。")
+FIRST_LINE = Text(
+    "Look at line {line}, `{text}`: what it uses occurs in a right solution, what it computes does not.",
+    "请看第 {line} 行 `{text}`：它用到的值在正确解法中都有，它算出的值却没有。",
+)
 
 
 def structure(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text | None:
     """Report what shows before any number is compared: nothing, another count, type or shape in every case."""
     given = [x for x in answers if x is not None]
     if not given:
-        return message("none")
-    if any(pieces(x, part.returns) is None for x in given):
-        names = Text(", ".join(q.name for q in part.returns), "、".join(q.title.zh for q in part.returns))
-        got = next(x for x in given if pieces(x, part.returns) is None)
-        count = str(len(got)) if isinstance(got, tuple | list) else type(got).__name__
-        return message("count", n=len(part.returns), names=names, got=count)
+        return NO_RETURN
+    for x in given:
+        if values(x, part.returns) is None:
+            names = Text(", ".join(q.name for q in part.returns), "、".join(q.title.zh for q in part.returns))
+            got = len(x) if isinstance(x, tuple | list) else type(x).__name__
+            return COUNT.fill(n=len(part.returns), names=names, got=got)
     if len(given) < len(answers):
-        return message("none sometimes")
+        return SOMETIMES_NONE
     split = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in zip(answers, right)]
     for k, quantity in enumerate(part.returns):
         pairs = [(a[k], b[k]) for a, b in split if a and b]
         found = [_uncomparable(a, b) for a, b in pairs]
         shapes = {a.array.shape for a, _ in pairs if a.array is not None}
         if len(pairs) > 1 and len(shapes) == 1 < len({np.shape(b.raw) for _, b in pairs}):
-            return message("fixed size", name=quantity.title, shape=shapes.pop())
+            return FIXED_SIZE.fill(name=quantity.title, shape=shapes.pop())
         if found and all(found):
             return found[0]
-        if len(pairs) > 1 and all(_is_cut_off(a, b) for a, b in pairs) and any(np.any(a.raw) for a, _ in pairs):
-            return message("cut off", name=quantity.title)
     errors = [_relative_error(a, b) for x, y in split for a, b in zip(x, y)]
-    known = [x for x in errors if x is not None]
-    if known and len(known) == len(errors) and part.rtol < SINGLE_ERROR[0] < max(known) < SINGLE_ERROR[1]:
-        return message("single precision")
-    return None
+    is_single = part.rtol < SINGLE_ERROR[0] < max(errors, default=0) < SINGLE_ERROR[1]
+    return SINGLE if is_single else None
 
 
 def _uncomparable(got: Value, right: Value) -> Text | None:
     """Report another type or another shape, or numbers that are not finite."""
-    name = got.quantity.title
-    if right.array is None:
-        return None if isinstance(got.raw, str) else message("type", name=name, what=message("string"), got=_type(got))
-    truths = right.array.dtype.kind == "b"
-    if got.array is None or (got.array.dtype.kind == "b") != truths:
-        return message("type", name=name, what=message("truths" if truths else "numbers"), got=_type(got))
-    if got.array.shape != right.array.shape:
-        return message("shape", name=name, got=got.array.shape, expected=right.array.shape)
-    if got.array.dtype.kind in "fc" and not np.isfinite(got.array).all() and np.isfinite(right.array).all():
-        return message("not finite", name=name)
-    return None
-
-
-def _type(got: Value) -> str:
-    return "None" if got.raw is None else type(got.raw).__name__
-
-
-def _is_cut_off(got: Value, right: Value) -> bool:
-    a, b = got.array, right.array
-    if a is None or b is None or a.shape != b.shape or not b.ndim or b.dtype.kind != "f":
-        return False
-    return bool(np.array_equal(a, np.trunc(b)) and not np.array_equal(a, b))
-
-
-def _relative_error(got: Value, right: Value) -> float | None:
-    a, b = got.array, right.array
-    if (
-        a is None
-        or b is None
-        or a.shape != b.shape
-        or not a.size
-        or a.dtype.kind not in "fc"
-        or b.dtype.kind not in "fc"
-    ):
+    name, a, b = got.quantity.title, got.array, right.array
+    kinds = ["s" if isinstance(x.raw, str) else "" if x.array is None else x.array.dtype.kind for x in (got, right)]
+    wanted = {"s": Text("a string", "字符串"), "b": Text("True or False", "True 或 False")}
+    if not kinds[0] or (kinds[0] != kinds[1] and {*kinds} & wanted.keys()):
+        kind = "None" if got.raw is None else type(got.raw).__name__
+        return TYPE.fill(name=name, what=wanted.get(kinds[1], Text("numbers", "数值")), got=kind)
+    if a is None or b is None:
         return None
-    if not (np.isfinite(a).all() and np.isfinite(b).all()):
-        return None
-    return float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
+    if a.shape != b.shape:
+        return SHAPE.fill(name=name, got=a.shape, right=b.shape)
+    return NOT_FINITE.fill(name=name) if np.isfinite(b).all() and not np.isfinite(a).all() else None
+
+
+def _relative_error(got: Value, right: Value) -> float:
+    a, b = got.array, right.array
+    if a is None or b is None or a.shape != b.shape or not a.size or "b" in a.dtype.kind + b.dtype.kind:
+        return np.inf
+    error = float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
+    return error if np.isfinite(error) else np.inf
 
 
 def differences(part: Part, answer: Any, right: Any) -> tuple[list[Text], bool]:
     """Describe how an answer differs from the right one, result by result; and whether that shows what is wrong."""
-    lines: list[Text] = []
-    telling = False
-    for got, wanted in zip(values(answer, part.returns) or [], values(right, part.returns) or []):
-        said, tells = _of_value(got, wanted, part.rtol)
-        lines += said
-        telling = telling or tells
-    return lines, telling
+    pairs = zip(values(answer, part.returns) or [], values(right, part.returns) or [])
+    found = [_of_value(got, wanted, part.rtol) for got, wanted in pairs]
+    return [line for lines, _ in found for line in lines], any(tells for _, tells in found)
 
 
 def _of_value(got: Value, right: Value, rtol: float) -> tuple[list[Text], bool]:
@@ -116,28 +98,34 @@ def _of_value(got: Value, right: Value, rtol: float) -> tuple[list[Text], bool]:
         return [problem], True
     name, a, b = got.quantity.title, got.array, right.array
     if a is None or b is None:
-        said, wanted = str(got.raw).strip(), str(right.raw).strip()
-        key = "error differs" if wanted.endswith("Error") and wanted.isidentifier() else "text differs"
-        relation = message(key, got=said, right=wanted)
-        return ([] if said == wanted else [message("is", what=name, relation=relation)]), False
+        x, y = str(got.raw).strip(), str(right.raw).strip()
+        text = Text("{x}, where a different text is expected", "得到 {x}，应为另一段文字")
+        if y.endswith("Error") and y.isidentifier():
+            text = Text("{x}, and {y} is expected", "{x}，应为 {y}")
+        return ([] if x == y else [_line(name, text.fill(x=x, y=y))]), False
     if b.dtype.kind == "b":
-        wrong = [(bool(x), bool(y)) for x, y in zip(a.flat, b.flat) if x != y][:1]
-        return [message("is", what=name, relation=message("truth", got=x, right=y)) for x, y in wrong], False
+        pairs = [(bool(x), bool(y)) for x, y in zip(a.flat, b.flat) if x != y][:1]
+        return [Text(f"{name.en}: is {x}, and must be {y}", f"{name.zh}：是 {x}，应为 {y}") for x, y in pairs], False
     within = rtol * np.abs(b[np.isfinite(b)]).max(initial=FLOOR)
     if _same(a, b, within):
         return [], False
-    whole, tells = _relation(a, b, within)
+    relation, tells = _relation(a, b, within)
     lines, some_right = [], False
     for block, index in got.quantity.layout.blocks(b.shape) if not tells else ():
         if _same(a[index], b[index], within):
             some_right = True
         else:
-            relation, of_block = _relation(a[index], b[index], within, tuple(p.start for p in index[1:]))
-            tells = tells or of_block
-            lines.append(message("is", what=message("block", name=name, block=block), relation=relation))
+            of_block, of_block_tells = _relation(a[index], b[index], within, tuple(p.start for p in index[1:]))
+            tells = tells or of_block_tells
+            lines.append(_line(Text(f"{name.en}, {block.en}", f"{name.zh}，{block.zh}"), of_block))
     if not lines:
-        return [message("is", what=name, relation=whole)], tells
-    return lines + [message("rest right", name=name)] * some_right, tells or some_right
+        return [_line(name, relation)], tells
+    rest = say("the rest of {name} is right", "{name} 的其余部分正确", name=name)
+    return lines + [rest] * some_right, tells or some_right
+
+
+def _line(what: Text, relation: Text) -> Text:
+    return Text(f"{what.en}: {relation.en}", f"{what.zh}：{relation.zh}")
 
 
 def _same(a: Array, b: Array, within: Any) -> bool:
@@ -148,52 +136,85 @@ def _same(a: Array, b: Array, within: Any) -> bool:
 def _relation(a: Array, b: Array, within: Any, origin: tuple[int, ...] = ()) -> tuple[Text, bool]:
     """Describe an array beside the right one; and whether that is more than how many entries are wrong."""
     if np.isnan(b).any() and np.isfinite(a).all():
-        return message("nan expected"), True
+        return Text("a number, where nan is expected", "给出了一个数，而应为 nan"), True
     if _same(b, 0 * b, within):
-        return message("must be zero"), False
-    if _same(a, 0 * a, within):
-        return message("is zero"), True
-    if _same(a, -b, within):
-        return message("sign"), True
-    if a.ndim > 1 and _same(a, b.mT, within):
-        return message("transposed"), True
-    if a.ndim > 1 and _same(a, -b.mT, within):
-        return message("transposed and sign"), True
-    for factor in REPORTED_FACTORS:
-        for sign in (1, -1):
-            if _same(a, sign * factor * b, factor * within):
-                return message("too large" if sign > 0 else "too large and sign", factor=factor), True
-            if _same(factor * a, sign * b, within):
-                return message("too small" if sign > 0 else "too small and sign", factor=factor), True
-    return _triangle(a, b, within) or _places(a, b, within, origin)
+        return Text("must be zero", "应为零"), False
+    for en, zh, other in (
+        ("zero, and must not be", "为零，不应为零", 0 * b),
+        ("the sign is wrong", "符号相反", -b),
+        ("transposed", "被转置", np.swapaxes(b, -1, -2) if b.ndim > 1 else b),
+        ("transposed, and the sign is wrong", "被转置且符号相反", -np.swapaxes(b, -1, -2) if b.ndim > 1 else b),
+    ):
+        if _same(a, other, within):
+            return Text(en, zh), True
+    with np.errstate(invalid="ignore"):
+        wrong, error = ~(np.abs(a - b) <= within), float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
+    if error < NEARLY:
+        return say("right to {n} digits only", "只有 {n} 位正确", n=int(-np.log10(error))), True
+    n = int(wrong.sum())
+    if n <= MAX_LISTED and n < a.size:
+        shift = np.array([*(0,) * (a.ndim - len(origin)), *origin], int)
+        where = ", ".join(str([int(k) for k in at]) for at in np.argwhere(wrong) + shift)
+        return say("wrong in {where}, right elsewhere", "错在 {where}，其余正确", where=where), True
+    if n < a.size:
+        return say("{n} of {all} numbers are wrong", "{all} 个数中有 {n} 个错误", n=n, all=a.size), False
+    return Text("different numbers", "数值不同"), False
 
 
-def _triangle(a: Array, b: Array, within: Any) -> tuple[Text, bool] | None:
-    if a.ndim != 2 or a.shape[0] != a.shape[1] or a.shape[0] < 3 or not _same(b, b.mT, within):
-        return None
-    wrong, upper = np.abs(a - b) > within, np.triu(np.ones(a.shape, bool))
-    one, diagonal = np.abs(b) > within, np.eye(len(a), dtype=bool)
-    for key, side in (("diagonal only", diagonal), ("upper only", upper), ("lower only", upper.mT)):
-        if not wrong[side].any() and wrong[~side & one].all() and wrong.any():
-            return message(key), True
+# ---------------------------------------------------------------- the first wrong line
+
+
+def first_wrong_line(program: Program, arguments: Sequence[Any], solutions: Sequence[Program]) -> Text | None:
+    """Report the first statement of a traced program that computes what no right solution has, from what one has.
+
+    A value is known if an argument or an expression of a right solution has it, whatever its sign.
+    """
+    found: dict[tuple[int, ...], list[Array]] = {}
+    for value in (*arguments, *(value for solution in solutions for _, value in solution.events)):
+        for x in _arrays(value):
+            found.setdefault(x.shape, []).append(x)
+            if x.shape == (6,):
+                found.setdefault((3,), []).extend((x[:3], x[3:]))
+    stacked = {shape: np.array(arrays) for shape, arrays in found.items()}
+
+    def is_known(value: Any) -> bool:
+        return all(_occurs(x, stacked.get(x.shape)) or _occurs(-x, stacked.get(x.shape)) for x in _arrays(value))
+
+    statements = [*_statements(program)]
+    for k, (node, value, used) in enumerate(statements):
+        if not [*_arrays(value)] or is_known(value) or not all(map(is_known, used)):
+            continue
+        later = statements[k + 1 :]
+        if not any(is_known(x) and any(equal(value, y) for y in uses) for _, x, uses in later):
+            return FIRST_LINE.fill(line=node.lineno, text=text_of(node))  # else only another way to what is right
     return None
 
 
-def _places(a: Array, b: Array, within: Any, origin: tuple[int, ...]) -> tuple[Text, bool]:
-    """Describe which entries are wrong, or in the wrong place, or how many digits are right."""
-    if a.size > 1 and _same(np.abs(a), np.abs(b), within):
-        return message("signs"), True
-    if a.size > 1 and _same(np.sort(a.ravel()), np.sort(b.ravel()), within):
-        return message("permuted"), True
-    with np.errstate(invalid="ignore"):
-        wrong = ~(np.abs(a - b) <= within)
-    error = float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
-    if error < NEARLY:
-        return message("digits", n=int(-np.log10(error))), True
-    if wrong.sum() <= MAX_LISTED and wrong.sum() < a.size:
-        shift = np.array([*(0,) * (a.ndim - len(origin)), *origin], int)
-        where = ", ".join(str([int(k) for k in at]) for at in np.argwhere(wrong) + shift)
-        return message("entries", where=where), True
-    if wrong.sum() < a.size:
-        return message("some", wrong=int(wrong.sum()), all=a.size), False
-    return message("different"), False
+def _occurs(x: Array, every: Array | None) -> bool:
+    if every is None:
+        return False
+    within = TRACE_RTOL * max(float(np.abs(x).max(initial=0)), FLOOR)
+    return bool((np.abs(every - x) <= within).all(axis=tuple(range(1, every.ndim))).any())
+
+
+def _statements(program: Program) -> Iterator[tuple[Any, Any, list[Any]]]:
+    """Yield each assignment and return that has run, with its value and the values that it uses."""
+    used, owner = list[Any](), program.statements
+    for node, value in program.events:
+        statement = owner[id(node)]
+        if isinstance(statement, ast.Assign | ast.Return) and node is statement.value:
+            yield statement, value, used
+            used = []
+        elif isinstance(node, ast.Name | ast.Subscript | ast.Attribute) and [*_arrays(value)]:
+            used.append(value)
+
+
+def _arrays(value: Any) -> Iterator[Array]:
+    """Yield the arrays of a value that tell something: of finite numbers, not all of them whole."""
+    if isinstance(value, np.ndarray | float | np.number):
+        x = np.squeeze(np.asarray(value))
+        if x.dtype.kind == "f" and np.isfinite(x).all() and (x != np.trunc(x)).any():
+            yield x
+    elif isinstance(value, list | tuple | Mapping):
+        for entry in value.values() if isinstance(value, Mapping) else value:
+            yield from _arrays(entry)

@@ -19,8 +19,8 @@ class UnknownName(KeyError, CourseError):
         return str(self.args[0])
 
 
-def check_known(kind: str, name: object, known: Collection[str]) -> None:
-    """Raise UnknownName unless a name is known.
+def check_known(kind: str, name: object, known: Collection[str], error: type[Exception] = UnknownName) -> None:
+    """Raise an error unless a name is known.
 
     Examples
     --------
@@ -32,5 +32,4 @@ def check_known(kind: str, name: object, known: Collection[str]) -> None:
         return
     near = difflib.get_close_matches(str(name), known, n=4, cutoff=0.5)
     shown = ", ".join(map(repr, near or [*known][:12]))
-    hint = f"did you mean {shown}?" if near else f"known: {shown or 'none'}"
-    raise UnknownName(f"unknown {kind} {name!r}; {hint}")
+    raise error(f"unknown {kind} {name!r}; " + (f"did you mean {shown}?" if near else f"known: {shown or 'none'}"))

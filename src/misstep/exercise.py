@@ -11,15 +11,12 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .prose import as_text, read
-from .text import Text
+from .text import Text, as_text, read
 
 __all__ = ["PLAIN", "Exercise", "Kind", "Layout", "Part", "Property", "Quantity", "Slip"]
 
 Kind = Literal["code", "number", "explain", "prove"]
 Cases = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
-
-
 Parts = tuple[tuple[Text, slice], ...]
 
 
@@ -75,40 +72,39 @@ class Quantity:
     def label(self) -> Text:
         """The name and the unit."""
         unit = f" [{self.unit}]" if self.unit else ""
-        return Text(self.title.en + unit, self.title.zh + unit)
+        return Text(self.name + unit, self.title.zh + unit)
 
 
 class Slip(NamedTuple):
-    """A mistake that many have made before.
-
-    Attributes
-    ----------
-    title : Text
-        Its name in the message.
-    why : Text
-        What is true instead, in a sentence or two.
-    section : str
-        Where the course has it.
-    """
+    """A mistake that many have made before: its name, what is true instead, and where the course has it."""
 
     title: Text
     why: Text
     section: str
 
 
-@dataclass(frozen=True)
-class Property:
-    """A property that every right answer has, however it was computed.
-
-    ``residual(answer, *arguments)`` is zero, entry by entry, where the answer has it.
-    """
+class Property(NamedTuple):
+    """A property of every right answer: ``residual(answer, *arguments)`` is zero, entry by entry."""
 
     text: Text
     residual: Callable[..., Any]
 
 
+class _Written:
+    """What has its texts in a data file: in the package and with the content that a class names."""
+
+    _package: str
+    _prose: Mapping[str, Any]
+
+    def _text(self, entry: Mapping[str, str]) -> Text:
+        return as_text(entry, self._package)
+
+    def _texts(self, key: str) -> dict[str, Text]:
+        return {name: self._text(entry) for name, entry in self._prose.get(key, {}).items()}
+
+
 @dataclass(frozen=True, kw_only=True)
-class Part:
+class Part(_Written):
     """One function that the student writes.
 
     Attributes
@@ -163,15 +159,14 @@ class Part:
         """The name of the student's function."""
         return self.solution.__name__
 
-    @cached_property
-    def _prose(self) -> Mapping[str, Any]:
-        """The table of the function in the data file beside its module."""
-        package, _, name = self.solution.__module__.rpartition(".")
-        found: Mapping[str, Any] = read(package, name).get(self.name, {})
-        return found
+    @property
+    def _package(self) -> str:  # type: ignore[override]
+        return self.solution.__module__.rpartition(".")[0]
 
-    def _text(self, entry: Mapping[str, str]) -> Text:
-        return as_text(entry, self.solution.__module__.rpartition(".")[0])
+    @cached_property
+    def _prose(self) -> Mapping[str, Any]:  # type: ignore[override]
+        found: Mapping[str, Any] = read(self._package, self.solution.__module__.split(".")[-1]).get(self.name, {})
+        return found
 
     @cached_property
     def doc(self) -> Text:
@@ -181,20 +176,18 @@ class Part:
     @cached_property
     def reasons(self) -> Mapping[str, Text]:
         """The reasons of slips whose general reason does not fit here."""
-        return {slip: self._text(entry) for slip, entry in self._prose.get("reasons", {}).items()}
+        return self._texts("reasons")
 
     @cached_property
     def titles(self) -> Mapping[str, Text]:
         """The names of slips whose general name does not fit here."""
-        return {slip: self._text(entry) for slip, entry in self._prose.get("titles", {}).items()}
+        return self._texts("titles")
 
     @cached_property
     def properties(self) -> tuple[Property, ...]:
         """The properties of a right answer."""
-        entries = self._prose.get("properties", [])
-        return tuple(
-            Property(self._text(entry), residual) for entry, residual in zip(entries, self.residuals, strict=True)
-        )
+        texts = map(self._text, self._prose.get("properties", []))
+        return tuple(Property(text, residual) for text, residual in zip(texts, self.residuals, strict=True))
 
     @property
     def arguments(self) -> str:
@@ -204,13 +197,18 @@ class Part:
         parameters = inspect.signature(self.solution).parameters.values()
         return ", ".join(p.name if p.default is p.empty else f"{p.name}={p.default!r}" for p in parameters)
 
+    @property
+    def names(self) -> list[str]:
+        """The names of the arguments."""
+        return [name.partition("=")[0] for name in self.arguments.split(", ")]
+
     def value(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
         """Call a function as this part calls it."""
         return function(*arguments) if self.call is None else self.call(function, *arguments)
 
 
 @dataclass(frozen=True, kw_only=True)
-class Exercise:
+class Exercise(_Written):
     """An exercise of the chapter. Its texts, hints and model answer are in the data file beside its module.
 
     Attributes
@@ -235,16 +233,12 @@ class Exercise:
     course: Any = None
 
     @cached_property
-    def _prose(self) -> Mapping[str, Any]:
+    def _prose(self) -> Mapping[str, Any]:  # type: ignore[override]
         return read(self._package, f"ex_{self.id.replace('.', '_')}")
 
     @property
-    def _package(self) -> str:
-        """The package that holds it and its texts."""
+    def _package(self) -> str:  # type: ignore[override]
         return self.parts[0].solution.__module__.rpartition(".")[0]
-
-    def _text(self, entry: Mapping[str, str]) -> Text:
-        return as_text(entry, self._package)
 
     @property
     def title(self) -> Text:

@@ -17,15 +17,7 @@ from typing import Any
 
 import numpy as np
 
-__all__ = [
-    "after",
-    "as_column",
-    "before",
-    "faulty",
-    "negated",
-    "times",
-    "transposed",
-]
+__all__ = ["after", "as_column", "before", "faulty", "negated", "times", "transposed"]
 
 Function = Callable[..., Any]
 

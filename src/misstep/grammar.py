@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .program import Change, Place, Program, locate, text_of
+from .program import Change, Place, Program, equal, locate, text_of
 
 __all__ = ["RULES", "Edit", "Habits", "edits"]
 
@@ -89,12 +89,10 @@ CONFUSABLE = (
 """Names of NumPy that are taken for each other."""
 
 SLICES = (":3", "3:", "3:6", ":6", "6:")
-
 REPEATABLE = ("sign", "turn", "drop", "name", "index", "number", "operator")
 """Rules whose edit may have to be made in several places at once, where the same text stands."""
 
-MAX_REPEATED = 5
-"""Places with the same text of which each pair is tried; of more only all."""
+MAX_REPEATED = 5  # places with the same text of which each pair is tried; of more only all
 
 
 class Rewrite(NamedTuple):
@@ -212,27 +210,11 @@ def _rows() -> Iterator[tuple[str, ast.expr, tuple[str, ...]]]:
 ROWS = tuple(_rows())
 
 
-@dataclass
 class Context:
     """A program that has run, with what stands at hand in it."""
 
-    program: Program
-    habits: Habits
-    rules: dict[str, tuple[Callable[[Context, Place], Iterator[Any]], ...]] = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.rules = {
-            "copy": (own_array,),
-            "order": (exchange_entries,),
-            "sign": (negate,),
-            "turn": (transpose,),
-            "drop": (leave_out,),
-            "name": (other_name,),
-            "index": (other_index,),
-            "number": (other_number,),
-            "operator": (missing_factor,),
-            "flow": (other_flow,),
-        }
+    def __init__(self, program: Program, habits: Habits) -> None:
+        self.program, self.habits = program, habits
 
     def replacements(self, rule: str, place: Place) -> Iterator[Any]:
         """Yield what a rule puts in a place."""
@@ -240,8 +222,7 @@ class Context:
             for name, left, rights in ROWS:
                 if name == rule and (found := self.match(left, place.node)) is not None:
                     yield from (code(right, **found) for right in rights)
-        for function in self.rules[rule]:
-            yield from function(self, place)
+        yield from FUNCTIONS[rule](self, place)
 
     def match(self, pattern: Any, node: Any) -> dict[str, Any] | None:
         """Return what the letters of a pattern stand for in an expression, None where it has another form."""
@@ -328,13 +309,6 @@ def _is_term(place: Place) -> bool:
     if isinstance(node, ast.Constant) and type(node.value) not in (int, float):
         return False
     return not _in_brackets(place)
-
-
-def _equal(a: Any, b: Any) -> bool:
-    try:
-        return bool(np.array_equal(a, b))
-    except Exception:  # what cannot be compared
-        return a is b
 
 
 # ---------------------------------------------------------------- the rules that are no rows
@@ -453,7 +427,7 @@ def other_name(context: Context, place: Place) -> Iterator[Any]:
     value, kind = context.program.value(node), context.kind(node)
     if (named or count) and value is not None:
         for text, known in context.at_hand.items():
-            alike = _kind(known) == kind and not isinstance(known, str) and not _equal(known, value)
+            alike = _kind(known) == kind and not isinstance(known, str) and not equal(known, value)
             if alike and text != text_of(node):
                 yield code(text)
 
@@ -561,3 +535,18 @@ def _other_loop(node: ast.For, place: Place) -> Iterator[Rewrite]:
         if isinstance(line, ast.Assign):
             loop = ast.For(node.target, node.iter, [line, *node.body], node.orelse)
             yield Rewrite(loop, "in loop", text_of(line), line)
+
+
+FUNCTIONS: dict[str, Callable[[Context, Place], Iterator[Any]]] = {
+    "copy": own_array,
+    "order": exchange_entries,
+    "sign": negate,
+    "turn": transpose,
+    "drop": leave_out,
+    "name": other_name,
+    "index": other_index,
+    "number": other_number,
+    "operator": missing_factor,
+    "flow": other_flow,
+}
+"""By its rule, what yields the edits that are no rows."""

@@ -6,79 +6,50 @@ import copy
 import inspect
 import traceback
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, is_dataclass
+from contextlib import AbstractContextManager, nullcontext, suppress
+from dataclasses import is_dataclass
 from importlib.util import find_spec
-from typing import Any, Literal, NamedTuple
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from .calls import copied, shown
 from .cases import cases, every_case, further_cases, special_cases
 from .compare import agree, copied_results, is_one_array, plain, to_do, unchanged
-from .diagnose import Diagnosis, How, diagnose
+from .diagnose import diagnose
 from .exercise import Exercise, Part
-from .failing import Case, failing_case
-from .messages import message
 from .rules import broken_rules, is_ours
-from .state import at_line, changing_line, kept_in_module
-from .text import Text, hanging
+from .search import Arguments
+from .text import Text, say
+from .verdict import Case, Verdict, failing_case, headed
 
-__all__ = ["State", "Verdict", "judge"]
+__all__ = ["at_line", "judge"]
 
+Function = Callable[..., Any]
 Watch = Callable[[], AbstractContextManager[object]]
-State = Literal["to do", "done", "wrong"]
 
-
-@dataclass(frozen=True)
-class Verdict:
-    """The judgement of an answer, with its message.
-
-    Attributes
-    ----------
-    state : {"to do", "done", "wrong"}
-    lines : tuple of Text
-        The message, line by line; empty for what is done.
-    slips : tuple of str
-        The slips that give the same answer, keys of the slips of the field.
-    case : Case, optional
-        The first case in which the answer is wrong.
-    how : {"slip", "line", "reference", "structure", "located", "numbers"}
-        By what it was found what is wrong, as in `diagnose`: "structure" also where no number is; empty unless wrong.
-    """
-
-    state: State
-    lines: tuple[Text, ...] = ()
-    slips: tuple[str, ...] = ()
-    case: Case | None = None
-    how: How | Literal[""] = ""
-
-    def __post_init__(self) -> None:
-        if self.state == "wrong" and not self.how:
-            object.__setattr__(self, "how", "structure")
-
-    def message(self, language: Literal["en", "zh"]) -> str:
-        """Return the message in one language."""
-        return "\n".join(piece for line in self.lines for piece in hanging(line.of(language)))
-
-    def report(self, language: Literal["en", "zh"]) -> str:
-        """Return the message, and below it the failing case with its numbers."""
-        shown = "" if self.case is None else self.case.text(language)
-        return self.message(language) + ("\n\n" + shown if shown else "")
-
-
-class _Stop(Exception):
-    """The student's function did not give an answer."""
-
-
-class _Raised(_Stop):
-    """It raised an error."""
+NEEDS = Text("It needs the package {name}, which is not installed here.", "需要 {name}，此处没有安装。")
+CHANGED = Text("It changes its argument `{name}`: work on a copy.", "它修改了参数 `{name}`：请在副本上运算。")
+CHANGED_TERM = Text(
+    "A sum or a difference changes one of its terms. Make a new array: `a + b` does, `a += b` changes that of `a`.",
+    "求和或求差时改变了其中一个操作数。请新建数组：`a + b` 会新建，`a += b` 改变的是 `a` 的数组。",
+)
+KEPT = Text(
+    "It keeps something from one call to the next, as a global array, a cache or a default `out=[]` does:"
+    " make what changes anew in each call.",
+    "它把某些内容从一次调用留到了下一次（全局数组、缓存或 `out=[]` 这样的默认值）：会变的量请在每次调用时新建。",
+)
+ONE_ARRAY = Text("Two of the things that it returns are one and the same array.", "它返回的量中有两个是同一个数组。")
+ONE_WAY = Text("The two results are the same to the last bit in all cases.", "两个结果在所有情形中逐位相同。")
+COMPUTE_EACH = Text("The numbers are right, but compute each in its own way: {why}", "数值正确，但请分别计算：{why}")
+READ_ON = Text("Read {section}; ask for a hint: {command} hint {id}", "参阅{section}；需要提示：{command} hint {id}")
 
 
 def judge(
     exercise: Exercise,
     part: Part,
-    function: Callable[..., Any],
+    function: Function,
     *,
     seed: int = 0,
     watch: Watch = nullcontext,
@@ -106,138 +77,168 @@ def judge(
     Verdict
     """
     if exercise.needs and find_spec(exercise.needs) is None:
-        return Verdict("to do", (message("needs", name=exercise.needs),))
-    broken, so_far, changes = (
-        broken_rules(exercise.course.rules, part, function),
-        _Compared([], [], [], []),
-        list[Text](),
-    )
-    search = not exercise.needs if search is None else search
-    changed_in = 0  # the first case in which an argument is changed
-    for arguments in _trials(exercise, part, seed, so_far):
-        kept = _copied_but_frozen(arguments)  # an answer may change a model that it is given
-        try:
-            with watch():
-                answer, changed = _run(part, function, arguments)
-        except NotImplementedError:
-            return Verdict("to do")
-        except _Stop as stop:
-            if changes or not all(so_far.right):
+        return Verdict("to do", (NEEDS.fill(name=exercise.needs),))
+    return _Trial(exercise, part, function, seed, watch, not exercise.needs if search is None else search).verdict()
+
+
+class _Raised(Exception):
+    """The student's function raised an error."""
+
+    def __init__(self, error: BaseException) -> None:
+        super().__init__()
+        self.error = error
+
+    def lines(self) -> list[Text]:
+        """Report what was raised, and at which line of the student's file."""
+        lines = [say("It stopped with {error}", "运行出错：{error}", error=shown(self.error))]
+        own = [f for f in traceback.extract_tb(self.error.__traceback__) if not is_ours(f.filename)]
+        frame = next((f for f in reversed(own) if f.line), own[-1] if own else None)  # generated code shows no line
+        return lines if frame is None else [*lines, *at_line(frame.filename, frame.lineno, frame.line)]
+
+
+class _Trial:
+    """A function that is tried case by case: of each the arguments, its answer, the right one, whether they agree."""
+
+    def __init__(
+        self, exercise: Exercise, part: Part, function: Function, seed: int, watch: Watch, search: bool
+    ) -> None:
+        self.exercise, self.course, self.part, self.function = exercise, exercise.course, part, function
+        self.seed, self.watch, self.search = seed, watch, search
+        self.tried: list[Arguments] = []
+        self.answers: list[Any] = []
+        self.expected: list[Any] = []
+        self.right: list[bool] = []
+        self.changes: dict[int, Text] = {}  # by case: which argument is changed
+
+    def verdict(self) -> Verdict:
+        """Try the function in all cases, and report what is wrong."""
+        broken = broken_rules(self.course.rules, self.part, self.function)  # before anything is run
+        for arguments in self._cases():
+            try:
+                ended = self._try(arguments)
+            except NotImplementedError:
+                return Verdict("to do")
+            except _Raised as raised:
+                if not self.changes and all(self.right):
+                    return self._stopped(raised, arguments)
                 break  # what is wrong without an error comes first
-            case = failing_case(exercise, part, len(so_far.tried), seed, arguments)
-            cure = _cure_of_error(exercise, part, function, seed) if search and isinstance(stop, _Raised) else None
-            lines = (_head(exercise, part), *stop.args, *(cure.lines if cure else ()))
-            return Verdict("wrong", lines, case=case, how="line" if cure else "located")
+            if ended is not None:
+                return ended
+        return self._judged(broken)
+
+    def _cases(self) -> Iterator[Arguments]:
+        """Yield those that are drawn first, further ones, and special ones unless one of these was wrong."""
+        yield from cases(self.part, self.seed)
+        yield from further_cases(self.course, self.part, self.seed)
+        if all(self.right):
+            yield from special_cases(self.course, self.part, self.seed)
+
+    def _try(self, arguments: Arguments) -> Verdict | None:
+        """Compare the answer in one case; return a verdict where no further one is needed."""
+        frozen = {id(x): x for x in arguments if is_dataclass(x) and _is_frozen(x)}
+        kept = copy.deepcopy(arguments, frozen)  # an answer may change a model that it is given
+        with self.watch():
+            answer, given = self._run(arguments)
         if to_do(answer):
             return Verdict("to do")
-        if changed and not changes:
-            changes, changed_in = [changed], len(so_far.tried)
-        known = part.value(part.solution, kept)
-        so_far.add(arguments, answer, known, agree(part, answer, known, arguments))
-        if not so_far.right[-1] and not agree(part, part.value(part.solution, arguments), known, arguments):
-            model = _head(exercise, part), message("changed", name=part.arguments.partition(",")[0])  # it comes first
-            return Verdict("wrong", model, case=failing_case(exercise, part, len(so_far.tried) - 1, seed, arguments))
-    state = _keeps(part, function, so_far, watch)
-    if changes:
-        changes += changing_line(part, function, so_far.tried[changed_in], is_ours)
-    if not all(so_far.right) or state is not None:
-        return _wrong(exercise, part, function, so_far, seed, state, search, changes)
-    remarks = changes or broken or [message(key) for key in _made_one(so_far)][:1]
-    if not remarks:
-        return Verdict("done")
-    shown = failing_case(exercise, part, changed_in, seed, so_far.tried[changed_in]) if changes else None
-    return Verdict("wrong", (_head(exercise, part), *remarks), case=shown)
-
-
-def _trials(exercise: Exercise, part: Part, seed: int, so_far: _Compared) -> Iterator[tuple[Any, ...]]:
-    """Yield the cases: those that are drawn first, further ones, and special ones unless one of these was wrong."""
-    yield from cases(part, seed)
-    yield from further_cases(exercise.course, part, seed)
-    if all(so_far.right):
-        yield from special_cases(exercise.course, part, seed)
-
-
-class _Compared(NamedTuple):
-    """The cases that were tried, and of each the student's answer, the right one, and whether they agree."""
-
-    tried: list[tuple[Any, ...]]
-    answers: list[Any]
-    expected: list[Any]
-    right: list[bool]
-
-    def add(self, arguments: tuple[Any, ...], answer: Any, known: Any, agrees: bool) -> None:
-        """Add a case."""
+        changed = [name for name, x, y in zip(self.part.names, arguments, given) if not unchanged(x, y)]
+        if changed:
+            is_class = inspect.isclass(self.part.solution)
+            self.changes[len(self.tried)] = CHANGED_TERM if is_class else CHANGED.fill(name=changed[0])
+        right = self.part.value(self.part.solution, kept)
         self.tried.append(arguments)
         self.answers.append(answer)
-        self.expected.append(known)
-        self.right.append(agrees)
+        self.expected.append(right)
+        self.right.append(agree(self.part, answer, right, arguments))
+        if self.right[-1] or agree(self.part, self.part.value(self.part.solution, arguments), right, arguments):
+            return None
+        return self._headed(CHANGED.fill(name=self.part.names[0]), case=self._case(-1))
 
-    @property
-    def first_wrong(self) -> int:
-        """The first case that is wrong, or the first of all."""
-        return 0 if all(self.right) else self.right.index(False)
+    def _run(self, arguments: Arguments) -> tuple[Any, Arguments]:
+        """Call the function on copies of the arguments; return its answer, and what has become of them."""
+        given = copied(arguments)
+        try:
+            return plain(self.part.value(self.function, given)), given
+        except (KeyboardInterrupt, NotImplementedError):
+            raise
+        except BaseException as error:  # whatever the student's code raises becomes a message
+            raise _Raised(error) from None
+
+    def _stopped(self, raised: _Raised, arguments: Arguments) -> Verdict:
+        """Report an error, and the change after which there is none and the answer is right."""
+        self.tried.append(arguments)
+        lines = raised.lines()
+        if self.search and not isinstance(raised.error, MemoryError | SystemExit):
+            every = every_case(self.course, self.part, self.seed)
+            found = diagnose(self.part, self.function, [None] * len(every), every, self.course.field)
+            if found.how == "line":
+                return self._headed(*lines, *found.lines, case=self._case(-1), how="line")
+        return self._headed(*lines, case=self._case(-1), how="located")
+
+    def _judged(self, broken: Sequence[Text]) -> Verdict:
+        """Return the verdict on a function that has given answers: what is wrong comes before what is forbidden."""
+        k = 0 if all(self.right) else self.right.index(False)
+        changes = list(self.changes.values())[:1]
+        if self._keeps(k):
+            return self._headed(*changes, KEPT, case=self._case(k))
+        if not all(self.right):
+            return self._wrong(k, changes)
+        if changes:
+            return self._headed(*changes, case=self._case(min(self.changes)))
+        why = ONE_ARRAY if is_one_array(self.answers[0]) else None
+        if copied_results(self.answers, self.expected, self.expected):
+            why = why or ONE_WAY
+        remarks = broken or ([COMPUTE_EACH.fill(why=why)] if why else [])
+        return self._headed(*remarks) if remarks else Verdict("done")
+
+    def _keeps(self, k: int) -> bool:
+        """Whether it keeps something from one call to the next: it returns something else, or an array of before."""
+        again = None
+        with suppress(NotImplementedError, _Raised), self.watch():
+            again = self._run(self.tried[k])[0]
+        if not agree(self.part, again, self.answers[k], self.tried[k]) and not _repeated(again, self.answers[k]):
+            return True
+        if all(self.right):
+            one_part = [self.part] * len(self.tried)
+            return not all(map(agree, one_part, self.answers, self.expected, self.tried))
+        objects = [x for x, is_right in zip(self.answers, self.right) if is_right and isinstance(x, np.ndarray | list)]
+        return any(self.answers[k] is x for x in objects)
+
+    def _wrong(self, k: int, changes: list[Text]) -> Verdict:
+        """Return what is wrong with the numbers, with the first case that shows it."""
+        found = diagnose(
+            self.part,
+            self.function,
+            self.answers,
+            self.tried,
+            self.course.field,
+            special_cases=lambda: special_cases(self.course, self.part, self.seed),
+            search_code=self.search,
+        )
+        if changes and inspect.isclass(self.part.solution) and not found.slips:  # what is wrong comes of it
+            return self._headed(*changes, case=self._case(k))
+        wrong, n = self.right.count(False), len(self.right)
+        count = say("Wrong in {wrong} of {n} cases.", "{n} 组数据中错了 {wrong} 组。", wrong=wrong, n=n)
+        lines = (*changes, *found.lines, *([count] if self.tried[k] else []), self._where(found.slips))
+        case = self._case(k, (self.expected[k], self.answers[k]))
+        return self._headed(*lines, slips=found.slips, case=case, how=found.how)
+
+    def _headed(self, *lines: Text, **more: Any) -> Verdict:
+        return headed(self.exercise, self.part, *lines, **more)
+
+    def _case(self, k: int, answers: Sequence[Any] = ()) -> Case:
+        k %= len(self.tried)
+        return failing_case(self.exercise, self.part, k, self.seed, self.tried[k], answers)
+
+    def _where(self, slips: Sequence[str]) -> Text:
+        """Return where to read on."""
+        section = self.course.field.slips[slips[0]].section if slips else self.exercise.section
+        name = Text(f"§{section}", f" §{section}") if section[:1].isdigit() else self.course.title(section)
+        return READ_ON.fill(section=name, id=self.exercise.id, command=self.course.command)
 
 
-def _wrong(
-    exercise: Exercise,
-    part: Part,
-    function: Callable[..., Any],
-    found: _Compared,
-    seed: int,
-    state: Text | None,
-    search: bool,
-    changes: list[Text],
-) -> Verdict:
-    """Return what is wrong, with the first case that shows it."""
-    k, head = found.first_wrong, _head(exercise, part)
-    if state is not None:
-        case = failing_case(exercise, part, k, seed, found.tried[k])
-        return Verdict("wrong", (head, *changes, state), case=case)
-    diagnosis = diagnose(
-        part,
-        function,
-        found.answers,
-        found.tried,
-        exercise.course.field,
-        special_cases=lambda: special_cases(exercise.course, part, seed),
-        search_code=search,
-    )
-    if changes and inspect.isclass(part.solution) and not diagnosis.slips:  # what is wrong comes of it
-        case = failing_case(exercise, part, k, seed, found.tried[k])
-        return Verdict("wrong", (head, *changes), case=case)
-    case = failing_case(exercise, part, k, seed, found.tried[k], (found.expected[k], found.answers[k]))
-    count = [message("cases", wrong=found.right.count(False), all=len(found.right))] if found.tried[k] else []
-    lines = (head, *changes, *count, *diagnosis.lines, _where(exercise, diagnosis.slips))
-    return Verdict("wrong", lines, diagnosis.slips, case, diagnosis.how)
-
-
-def _cure_of_error(exercise: Exercise, part: Part, function: Callable[..., Any], seed: int) -> Diagnosis | None:
-    """Return the change after which a function that raises an error is right."""
-    every = every_case(exercise.course, part, seed)
-    found = diagnose(part, function, [None] * len(every), every, exercise.course.field)
-    return found if found.how == "line" else None
-
-
-def _keeps(part: Part, function: Callable[..., Any], found: _Compared, watch: Watch) -> Text | None:
-    """Report that a function keeps something from one call to the next, if it does."""
-    k, (tried, answers, expected, right) = found.first_wrong, found
-    again = _again(part, function, tried[k], watch)
-    if not agree(part, again, answers[k], tried[k]) and not _repeated(again, answers[k]):
-        return message("kept")
-    held = kept_in_module(part, function, [case for *case, good in zip(tried, expected, right) if not good])
-    objects = [answer for answer, good in zip(answers, right) if good and isinstance(answer, np.ndarray | list)]
-    if not right[k] and any(answers[k] is answer for answer in objects):
-        return message("returned before")
-    changed = all(right) and not all(map(agree, [part] * len(tried), answers, expected, tried))
-    return message("returned before") if changed else held
-
-
-def _made_one(found: _Compared) -> Iterator[str]:
-    """Yield what is wrong where two of the things returned are one."""
-    if is_one_array(found.answers[0]):
-        yield "one array"
-    if copied_results(found.answers, found.expected, found.expected):
-        yield "one way"
+def _is_frozen(x: Any) -> bool:
+    return bool(x.__dataclass_params__.frozen)
 
 
 def _repeated(first: Any, second: Any) -> bool:
@@ -250,58 +251,10 @@ def _repeated(first: Any, second: Any) -> bool:
         return True
 
 
-def _copied_but_frozen(arguments: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return a copy of the arguments and of all that they hold, but for those that nothing can change."""
-    return copy.deepcopy(arguments, {id(x): x for x in arguments if is_dataclass(x) and _is_frozen(x)})
-
-
-def _is_frozen(x: Any) -> bool:
-    return bool(x.__dataclass_params__.frozen)
-
-
-def _again(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...], watch: Watch) -> Any:
-    """Call the student's function with other arguments; None where it stops."""
-    try:
-        with watch():
-            return _run(part, function, arguments)[0]
-    except (NotImplementedError, _Stop):
-        return None
-
-
-def _run(part: Part, function: Callable[..., Any], arguments: tuple[Any, ...]) -> tuple[Any, Text | None]:
-    """Call the student's function on copies of the arguments; report whether it changes one, and where it stopped."""
-    given = copied(arguments)
-    try:
-        answer = plain(part.value(function, given))
-    except (KeyboardInterrupt, NotImplementedError):
-        raise
-    except BaseException as error:  # whatever the student's code raises becomes a message
-        outside = isinstance(error, MemoryError | SystemExit)  # no slip of the mathematics
-        raise (_Stop if outside else _Raised)(*_stopped(error)) from None
-    for name, before, after in zip(part.arguments.split(", "), arguments, given):
-        if not unchanged(before, after):
-            changed = message("changed", name=name.partition("=")[0])
-            return answer, message("changed term") if inspect.isclass(part.solution) else changed
-    return answer, None
-
-
-def _stopped(error: BaseException) -> list[Text]:
-    """Report what was raised, and at which line of the student's file."""
-    lines = [message("stopped", error=shown(error))]
-    own = [f for f in traceback.extract_tb(error.__traceback__) if not is_ours(f.filename)]
-    if own:
-        frame = next((f for f in reversed(own) if f.line), own[-1])  # generated code has no line that can be shown
-        lines += at_line(frame.filename, frame.lineno)
-        lines.append(Text(f"    {frame.line}", f"    {frame.line}"))
-    return lines
-
-
-def _head(exercise: Exercise, part: Part) -> Text:
-    return message("head", id=exercise.id, name=part.name)
-
-
-def _where(exercise: Exercise, slips: Sequence[str]) -> Text:
-    """Return where to read on."""
-    section = exercise.course.field.slips[slips[0]].section if slips else exercise.section
-    name = Text(f"§{section}", f" §{section}") if section[:1].isdigit() else message("project")
-    return message("where", section=name, id=exercise.id, command=exercise.course.command)
+def at_line(file: str, line: object, text: str | None) -> list[Text]:
+    """Return where something happened in a student's file, or in a cell of a notebook, and what stands there."""
+    name = Text(*(Path(file).name,) * 2)
+    if "ipykernel" in file or file.startswith("<ipython"):
+        name = Text("your cell", "你的单元格")
+    place = say("in {file}, line {line}:", "位于 {file} 第 {line} 行：", file=name, line=line)
+    return [place, Text(f"    {text}", f"    {text}")]

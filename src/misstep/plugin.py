@@ -10,38 +10,31 @@ from __future__ import annotations
 import io
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from contextlib import ExitStack, suppress
 from typing import Any, NoReturn
 
 import pytest
 
+from .checked import WORDS
 from .commands import at_least
 from .course import Course
 from .exercise import Exercise
-from .folder.workbook import Unread, Workbook
-from .judge import Verdict
-from .processes.isolation import TIME_LIMIT, opened
+from .isolation import TIME_LIMIT_S, opened
 from .progress import survey
-from .text import Text, wrapped
+from .text import Text, say, wrapped
+from .verdict import Unread, Verdict
+from .workbook import Workbook
 
 __all__ = [
-    "SectionFile",
-    "configure",
-    "pytest_addoption",
-    "pytest_collect_file",
-    "pytest_pycollect_makemodule",
-    "pytest_terminal_summary",
-    "pytest_unconfigure",
+    *("SectionFile", "configure", "pytest_addoption", "pytest_collect_file"),
+    *("pytest_pycollect_makemodule", "pytest_terminal_summary", "pytest_unconfigure"),
 ]
 
-TO_DO = Text("to do: {id} {name}", "未做：{id} {name}")
 COMPARE = Text(
     "{id} is right. To compare with your own words, the model answer:", "{id} 正确。请与你的回答对照，参考答案："
 )
-
 UNREAD = Text("None of its answers can be checked until it can be read.", "文件能读取之后，才能检查其中的答案。")
-
 SEED = Text(
     "The same random cases again: python -m pytest --seed {seed}", "再用同一批随机数据：python -m pytest --seed {seed}"
 )
@@ -68,17 +61,11 @@ def configure(config: pytest.Config, course: Course) -> None:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the time limit; a debugger needs 0, as the answers otherwise run in a process of their own."""
-    parser.addoption(
-        "--time-limit",
-        type=float,
-        default=TIME_LIMIT,
-        metavar="S",
-        help="seconds for one call of an answer; 0 for none, as `breakpoint()` needs it (10)",
-    )
-    parser.addoption(
-        "--seed", type=at_least(0), metavar="N", help="of the random cases; drawn anew each time unless given"
-    )
+    """Add the time limit and the seed."""
+    limit = "seconds for one call of an answer; 0 for none, as `breakpoint()` needs it (10)"
+    parser.addoption("--time-limit", type=float, default=TIME_LIMIT_S, metavar="S", help=limit)
+    seed = "of the random cases; drawn anew each time unless given"
+    parser.addoption("--seed", type=at_least(0), metavar="N", help=seed)
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
@@ -88,23 +75,22 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 def pytest_collect_file(file_path: Any, parent: pytest.Collector) -> pytest.Collector | None:
     """Collect the files of the exercises."""
-    course = parent.config.stash[COURSE]
+    course, books = parent.config.stash[COURSE], parent.config.stash[BOOKS]
     if file_path.name not in course.files:
         return None
-    books = parent.config.stash[BOOKS]
-    if str(file_path.parent) not in books:
+    folder = str(file_path.parent)
+    if folder not in books:
         how = {name: parent.config.getoption(name) for name in ("seed", "time_limit")}
-        opening = opened(course, file_path.parent, **how)
-        books[str(file_path.parent)] = parent.config.stash[OPEN].enter_context(opening)
-    book = books[str(file_path.parent)]
-    return SectionFile.of(parent, path=file_path, section=course.files[file_path.name], book=book)
+        books[folder] = parent.config.stash[OPEN].enter_context(opened(course, folder, **how))
+    made: SectionFile = SectionFile.from_parent(parent, path=file_path)
+    made.section, made.book = course.files[file_path.name], books[folder]
+    return made
 
 
 def pytest_pycollect_makemodule(module_path: Any, parent: pytest.Collector) -> pytest.Collector | None:
     """Keep pytest from importing a student's file that is named: one that cannot be read would give a traceback."""
-    if module_path.name not in parent.config.stash[COURSE].files:
-        return None
-    return Nothing.from_parent(parent, path=module_path)
+    is_students = module_path.name in parent.config.stash[COURSE].files
+    return Nothing.from_parent(parent, path=module_path) if is_students else None
 
 
 class Nothing(pytest.File):
@@ -120,22 +106,17 @@ class SectionFile(pytest.File):
 
     section: str
     book: Workbook
-    reported = False
+    is_reported = False
     """Whether it was reported that the file cannot be read."""
-
-    @classmethod
-    def of(cls, parent: pytest.Collector, *, path: Any, section: str, book: Workbook) -> SectionFile:
-        """Make a collector with its section and its folder."""
-        made = cls.from_parent(parent, path=path)
-        made.section, made.book = section, book
-        return made
 
     def collect(self) -> Iterable[pytest.Item]:
         """Yield a test for each function and each answer in words."""
         for exercise in self.book.course.of_section(self.section):
-            names = [part.name for part in exercise.parts]
-            for name in names + [exercise.answer_name] * (exercise.answer is not None):
-                yield Answer.of(self, exercise=exercise, name=name)
+            for name in [part.name for part in exercise.parts] + [WORDS] * (exercise.answer is not None):
+                item: Answer = Answer.from_parent(self, name=f"{exercise.id.replace('.', '_')}-{name}")
+                item.exercise, item.asked = exercise, name
+                item.add_marker(mark_of(exercise.section))
+                yield item
 
 
 class Wrong(Exception):
@@ -149,41 +130,31 @@ class Answer(pytest.Item):
     exercise: Exercise
     asked: str
 
-    @classmethod
-    def of(cls, parent: SectionFile, *, exercise: Exercise, name: str) -> Answer:
-        """Make a test with the name of its exercise and the mark of its section."""
-        label = "words" if name == exercise.answer_name else name
-        item = cls.from_parent(parent, name=f"{exercise.id.replace('.', '_')}-{label}")
-        item.exercise, item.asked = exercise, name
-        item.add_marker(mark_of(exercise.section))
-        return item
-
     def runtest(self) -> None:
         """Judge it."""
-        book, exercise = self.parent.book, self.exercise
-        verdict = self._verdict()
+        language, verdict = self.parent.book.language, self._verdict()
         if isinstance(verdict, Unread):
             self._cannot_read(verdict)
         if verdict.state == "to do":
-            todo = TO_DO.fill(id=exercise.id, name=self.asked).of(book.language)
-            pytest.skip("  ".join([todo, *(line.of(book.language) for line in verdict.lines)]))
+            name = self.exercise.answer_name if self.asked == WORDS else self.asked
+            todo = say("to do: {id} {name}", "未做：{id} {name}", id=self.exercise.id, name=name)
+            pytest.skip("  ".join(line.of(language) for line in (todo, *verdict.lines)))
         if verdict.state == "wrong":
-            raise Wrong(verdict.report(book.language))
+            raise Wrong(verdict.report(language))
 
     def _cannot_read(self, verdict: Unread) -> NoReturn:
         """Report once why a file cannot be read, not again for each function in it."""
         why, none = (line.of(self.parent.book.language) for line in (verdict.lines[-1], UNREAD))
-        if self.parent.reported:
+        if self.parent.is_reported:
             pytest.skip(why)
-        self.parent.reported = True
+        self.parent.is_reported = True
         raise Wrong(f"{why}\n{none}")
 
     def _verdict(self) -> Verdict:
-        if self.asked == self.exercise.answer_name:
-            verdict = self.parent.book.verdict_in_words(self.exercise)
-            return Verdict("done") if verdict is None else verdict
-        part = next(part for part in self.exercise.parts if part.name == self.asked)
-        return self.parent.book.verdict(self.exercise, part)
+        book, exercise = self.parent.book, self.exercise
+        if self.asked == WORDS:
+            return book.verdict_in_words(exercise)
+        return book.verdict(exercise, next(part for part in exercise.parts if part.name == self.asked))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Show the message of a wrong answer as it is; of anything else the trace."""
@@ -199,23 +170,15 @@ def pytest_terminal_summary(terminalreporter: Any, exitstatus: int, config: pyte
     if exitstatus == pytest.ExitCode.INTERRUPTED:
         return
     for book in config.stash[BOOKS].values():
-        for exercise in _to_compare(book):
+        for exercise in book.course.exercises:
+            if exercise.answer is None or exercise.id in book.state["compared"] or not book.checked(exercise).right:
+                continue
             terminalreporter.section(f"{exercise.id} {exercise.title.of(book.language)}")
             terminalreporter.write_line(COMPARE.fill(id=exercise.id).of(book.language))
-            model = wrapped((exercise.answer or Text("", "")).of(book.language))
-            terminalreporter.write_line("\n" + "\n".join(model))
+            terminalreporter.write_line("\n" + "\n".join(wrapped(exercise.answer.of(book.language))))
             with suppress(OSError):  # a folder may be for reading only
                 book.remember(compared=[*book.state["compared"], exercise.id])
         if not config.option.collectonly:
             terminalreporter.section(str(book.folder))
             terminalreporter.write_line(str(survey(book)))
             terminalreporter.write_line(SEED.fill(seed=book.seed).of(book.language))
-
-
-def _to_compare(book: Workbook) -> Iterator[Exercise]:
-    """Yield the answered exercises in words whose model answer was not shown yet."""
-    for exercise in book.course.exercises:
-        if exercise.answer is None or exercise.id in book.state["compared"]:
-            continue
-        if all(verdict.state == "done" for verdict in book.verdicts(exercise).values()):
-            yield exercise

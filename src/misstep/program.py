@@ -3,29 +3,22 @@
 from __future__ import annotations
 
 import ast
-import copy
 import inspect
 import linecache
 import textwrap
 from collections.abc import Callable, Iterator
-from types import FunctionType, ModuleType
+from types import FunctionType
 from typing import Any, NamedTuple
 
 import numpy as np
 
-__all__ = ["Change", "MemoizedPackage", "Place", "Program", "locate", "source_with_helpers", "text_of"]
+__all__ = ["Change", "Place", "Program", "equal", "locate", "source_with_helpers", "text_of"]
 
 Function = Callable[..., Any]
 
-MAX_EVENTS = 6_000
-"""Values that one run records."""
-
-MAX_ROUNDS = 4_000
-"""Rounds of all loops of one call of a changed function: a change may make a loop endless."""
-
-MAX_RECORDED_SIZE = 4_000
-"""Entries of an array that is recorded as a copy; a larger one is recorded as it is."""
-
+MAX_EVENTS = 6_000  # values that one run records
+MAX_ROUNDS = 100_000  # of all loops of a changed function, in all calls: a change may make a loop endless
+MAX_RECORDED_SIZE = 4_000  # entries of an array that is recorded as a copy; a larger one is recorded as it is
 LOCAL_ASSIGNMENTS = ast.Constant | ast.List | ast.Tuple | ast.Dict | ast.Lambda | ast.BinOp | ast.UnaryOp
 """What a name of the file may stand for, to be taken over with the functions that use it."""
 
@@ -55,6 +48,14 @@ class Change(NamedTuple):
 
     place: Place
     new: Any
+
+
+def equal(a: Any, b: Any) -> bool:
+    """Whether two values are the same, or the same object where they cannot be compared."""
+    try:
+        return bool(np.array_equal(a, b))
+    except Exception:
+        return a is b
 
 
 def text_of(node: ast.AST) -> str:
@@ -104,20 +105,10 @@ def source_with_helpers(function: Function) -> str | None:
 
 
 class Program:
-    """The syntax tree of a function, of which single nodes can be replaced.
+    """The syntax tree of a function or class, of which single nodes can be replaced.
 
-    Parameters
-    ----------
-    function : callable
-        A function or a class.
-    source : str, optional
-        Its source, with helpers; read from its file unless given.
-    caller : callable, optional
-        A function that calls it, and stands for it when it is run.
-    package : MemoizedPackage, optional
-        Stands in place of the package that the function uses.
-    given : mapping, optional
-        Its arguments by name.
+    Its source, with helpers, is read from its file unless given. What is run is its caller where there is one; `given`
+    are its arguments by name.
     """
 
     def __init__(
@@ -126,20 +117,16 @@ class Program:
         *,
         source: str | None = None,
         caller: Function | None = None,
-        package: MemoizedPackage | None = None,
         given: dict[str, Any] | None = None,
     ) -> None:
         self.function, self.caller, self.given = function, caller, given or {}
         names = getattr(function, "__globals__", None) or getattr(_method(function), "__globals__", {})
         self.names = {**names, "_round": self._round}
-        if package is not None:
-            self.names |= {name: package for name, x in names.items() if x is package.original}
         text = textwrap.dedent(inspect.getsource(function)) if source is None else source
         self.tree = ast.fix_missing_locations(_Bounded().visit(ast.parse(text)))
         self.places = [place for top in self.tree.body for place in _places(top, ())]
         self.values: dict[int, list[Any]] = {}
         self.events: list[tuple[Any, Any]] = []
-        self._left = MAX_ROUNDS
 
     def _round(self) -> None:
         self._left -= 1
@@ -147,27 +134,14 @@ class Program:
             raise RuntimeError("an endless loop")
 
     def compiled(self, tree: Any = None, **more: Any) -> Function:
-        """Return the function as the tree has it now; its caller where it has one."""
-        names = {**self.names, **more}
+        """Return the function as the tree has it now, or its caller; the one made before must not run any more."""
+        names, self._left = {**self.names, **more}, MAX_ROUNDS
         exec(compile(tree or self.tree, "<changed>", "exec", dont_inherit=True), names)
-        found = names[self.function.__name__]
-        if self.caller is not None:
-            names = {**self.caller.__globals__, found.__name__: found}
-            found = FunctionType(self.caller.__code__, names, closure=self.caller.__closure__)
-        return self._restarting(found)
-
-    def _restarting(self, found: Any) -> Function:
-        """Return a function that counts its rounds from nought in each call."""
-        if inspect.isclass(found):
-            self._left = 100 * MAX_ROUNDS
+        found: Function = names[self.function.__name__]
+        if self.caller is None:
             return found
-
-        def call(*arguments: Any, **named: Any) -> Any:
-            self._left = MAX_ROUNDS
-            return found(*arguments, **named)
-
-        call.__name__ = found.__name__
-        return call
+        names = {**self.caller.__globals__, found.__name__: found}
+        return FunctionType(self.caller.__code__, names, closure=self.caller.__closure__)
 
     def mutant(self, changes: tuple[Change, ...]) -> Function | None:
         """Return the function with other nodes in some places; None where that is no program."""
@@ -182,19 +156,6 @@ class Program:
         finally:
             for place, _ in changes:
                 place.put(place.node)
-
-    def after(self, changes: tuple[Change, ...]) -> Program:
-        """Return the program after some changes, to be changed further."""
-        for place, new in changes:
-            place.put(new)
-        found = copy.copy(self)
-        found.tree = ast.fix_missing_locations(copy.deepcopy(self.tree))
-        for place, _ in changes:
-            place.put(place.node)
-        found.places = [place for top in found.tree.body for place in _places(top, ())]
-        found.values, found.events = {}, []
-        found.names = {**self.names, "_round": found._round}
-        return found
 
     def trace(self, run: Callable[[Function], Any]) -> Program:
         """Run it, and record the value of each expression, in the order in which they are computed."""
@@ -211,50 +172,17 @@ class Program:
             self.values.setdefault(id(node), []).append(value)
         return self
 
+    @property
+    def statements(self) -> dict[int, Any]:
+        """The statement around each node, by the identity of the node."""
+        around = {id(place.node): [x for x in place.parents if isinstance(x, ast.stmt)] for place in self.places}
+        return {node: found[-1] if found else None for node, found in around.items()}
+
     def value(self, node: Any) -> Any:
         """Return what an expression was when it first ran; of a constant, itself; None where it did not run."""
         if isinstance(node, ast.Constant):
             return node.value
         return self.values.get(id(node), [None])[0]
-
-
-class MemoizedPackage:
-    """A package whose functions compute nothing twice: most changes leave most calls as they are."""
-
-    def __init__(self, package: ModuleType) -> None:
-        self.original = package
-        self._known: dict[Any, Any] = {}
-
-    def __getattr__(self, name: str) -> Any:
-        function = getattr(self.original, name)
-        if not callable(function) or isinstance(function, type):
-            return function
-
-        def memoized(*arguments: Any, **named: Any) -> Any:
-            given = (*arguments, *named.values())
-            key = (name, *named, *map(_key, given))
-            if key not in self._known:
-                self._known[key] = function(*arguments, **named), given  # kept alive: `id` is part of the key
-            return _fresh(self._known[key][0])
-
-        return memoized
-
-
-def _key(x: Any) -> Any:
-    if isinstance(x, np.ndarray):
-        return x.shape, x.dtype.str, x.tobytes()
-    return repr(x) if isinstance(x, int | float | str | list | tuple) else id(x)
-
-
-def _fresh(x: Any) -> Any:
-    """Return a result with copies of its arrays, as a wrong function may write into them."""
-    if isinstance(x, np.ndarray):
-        return x.copy()
-    if isinstance(x, list):
-        return [_fresh(y) for y in x]
-    if isinstance(x, tuple):
-        return type(x)(*map(_fresh, x)) if hasattr(x, "_fields") else tuple(map(_fresh, x))
-    return x
 
 
 def _method(function: Any) -> Any:

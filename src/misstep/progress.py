@@ -2,34 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from os import PathLike
-from typing import Literal
 
+from .checked import STATES, WORDS
 from .course import Course
-from .folder.workbook import Unread, Workbook
-from .judge import State
-from .processes.isolation import TIME_LIMIT, opened
-from .text import Language, Text, columns
+from .isolation import TIME_LIMIT_S, opened
+from .text import Language, Text, columns, say
+from .verdict import State, Unread
+from .workbook import Workbook
 
-__all__ = ["Row", "Status", "status"]
+__all__ = ["Row", "Status", "status", "survey"]
 
-WIDTH = 12
-
-SAY = {
-    "to do": Text("to do", "未做"),
-    "done": Text("done", "完成"),
-    "wrong": Text("wrong", "有误"),
-    "total": Text("total", "合计"),
-    "next": Text("Next: {id} {title}, in {file}", "下一题：{id} {title}（{file}）"),
-    "rest": Text("{next}: {names} is still missing", "{next}：还缺 {names}"),
-    "fix": Text("To mend: {ids}", "待改正：{ids}"),
-    "read": Text("To mend first, since it cannot be read: {files}", "无法读取，先改好：{files}"),
-    "borrowed": Text("On the reference until yours is right: {names}", "你的实现正确之前使用参考实现：{names}"),
-    "comma": Text(", ", "、"),
-    "finished": Text("All done.", "全部完成。"),
-}
+WIDTH = 12  # of the bar of a section
+COMMA = Text(", ", "、")
+READ = Text("To mend first, since it cannot be read: {files}", "无法读取，先改好：{files}")
+BORROWED = Text("On the reference until yours is right: {names}", "你的实现正确之前使用参考实现：{names}")
+NEXT, REST = Text("Next: {id} {title}, in {file}", "下一题：{id} {title}（{file}）"), Text("is still missing", "还缺")
 
 
 @dataclass(frozen=True)
@@ -79,41 +68,35 @@ class Status:
         return sum(len(row.states) for row in self.rows)
 
     def __str__(self) -> str:
-        lines = [self._line(row.section, self.course.sections[row.section].of(self.language), row) for row in self.rows]
+        lines = [self._line(row, self.course.sections[row.section]) for row in self.rows]
         every = Row("", {number: state for row in self.rows for number, state in row.states.items()})
-        lines += ["", self._line("", self._say("total"), every) + f"  {100 * self.done // max(self.total, 1)} %"]
-        return "\n".join([*lines, "", *self._advice(every)])
+        lines += ["", self._line(every, Text("total", "合计")) + f"  {100 * self.done // max(self.total, 1)} %"]
+        return "\n".join([*lines, "", *(line.of(self.language) for line in self._advice(every))])
 
-    def _say(self, phrase: str, **values: object) -> str:
-        return SAY[phrase].fill(**values).of(self.language)
-
-    def _line(self, section: str, title: str, row: Row) -> str:
-        counts = {state: row.count(state) for state in row.states.values()}
-        size = max(len(row.states), 1)
-        full = round(WIDTH * counts.get("done", 0) / size)
+    def _line(self, row: Row, title: Text) -> str:
+        full, name = round(WIDTH * row.count("done") / max(len(row.states), 1)), title.of(self.language)
+        counts = [f"{n} {text.of(self.language)}" for state, text in STATES.items() if (n := row.count(state))]
         bar = "█" * full + "·" * (WIDTH - full)
-        kinds: tuple[Literal["done", "wrong", "to do"], ...] = ("done", "wrong", "to do")
-        said = self._say("comma").join(f"{counts[kind]} {self._say(kind)}" for kind in kinds if kind in counts)
-        return f"{section:8}{title}{' ' * (28 - columns(title))}{bar}  {said}"
+        return f"{row.section:8}{name}{' ' * (28 - columns(name))}{bar}  {COMMA.of(self.language).join(counts)}"
 
-    def _advice(self, every: Row) -> list[str]:
-        comma = self._say("comma")
-        unread = [
-            number for section in self.unread for row in self.rows if row.section == section for number in row.states
-        ]
+    def _advice(self, every: Row) -> list[Text]:
+        comma, lines = COMMA.of(self.language), list[Text]()
+        unread = {number for row in self.rows if row.section in self.unread for number in row.states}
         wrong = [number for number, state in every.states.items() if state == "wrong" and number not in unread]
         waiting = [number for number, state in every.states.items() if state == "to do"]
-        lines = [self._say("read", files=comma.join(map(self.course.file_name, self.unread)))] if self.unread else []
-        lines += [self._say("fix", ids=comma.join(wrong))] if wrong else []
+        if self.unread:
+            lines.append(READ.fill(files=comma.join(map(self.course.file_name, self.unread))))
+        if wrong:
+            lines.append(say("To mend: {ids}", "待改正：{ids}", ids=comma.join(wrong)))
         if waiting and not unread:
             exercise = self.course.exercise(waiting[0])
-            file = self.course.file_name(exercise.section)
-            following = self._say("next", id=exercise.id, title=exercise.title, file=file)
-            rest = comma.join(self.rest.get(exercise.id, ()))
-            lines.append(self._say("rest", next=following, names=rest) if rest else following)
+            line = NEXT.fill(id=exercise.id, title=exercise.title, file=self.course.file_name(exercise.section))
+            if rest := comma.join(self.rest.get(exercise.id, ())):
+                line = Text(f"{line.en}: {rest} {REST.en}", f"{line.zh}：{REST.zh} {rest}")
+            lines.append(line)
         if self.borrowed:
-            lines.append(self._say("borrowed", names=comma.join(self.borrowed)))
-        return lines or [self._say("finished")]
+            lines.append(BORROWED.fill(names=comma.join(self.borrowed)))
+        return lines or [Text("All done.", "全部完成。")]
 
 
 def status(
@@ -122,34 +105,11 @@ def status(
     *,
     language: Language | None = None,
     seed: int | None = None,
-    time_limit: float = TIME_LIMIT,
+    time_limit: float = TIME_LIMIT_S,
 ) -> Status:
-    """Check every exercise of a folder and return the progress.
-
-    Parameters
-    ----------
-    course : Course
-    folder : str or path
-        One that `start` has filled.
-    language : {"en", "zh"}, optional
-        Of the table; that of the folder unless given.
-    seed : int, optional
-        Of the random cases; drawn anew unless given.
-    time_limit : float
-        Seconds for one call of a function; 0 for none. The answers run in a process of their own, which is ended where
-        they take longer; without a limit they run in this one.
-
-    Returns
-    -------
-    Status
-
-    Raises
-    ------
-    CourseError
-        If nothing was started there.
-    """
-    Workbook.existing(course, folder)
+    """Check every exercise of a folder that was started, in another process, and return the progress."""
     with opened(course, folder, language=language, seed=seed, time_limit=time_limit) as book:
+        book.must_be_started()
         return survey(book)
 
 
@@ -159,21 +119,13 @@ def survey(book: Workbook) -> Status:
     rest: dict[str, tuple[str, ...]] = {}
     unread: list[str] = []
     for section in book.course.sections:
-        found = {exercise.id: book.verdicts(exercise) for exercise in book.course.of_section(section)}
-        rows.append(
-            Row(section, {number: check_state(v.state for v in each.values()) for number, each in found.items()})
-        )
-        for number, each in found.items():
-            names = tuple(name for name, verdict in each.items() if verdict.state == "to do")
-            rest |= {number: names} if 0 < len(names) < len(each) else {}
-        if any(isinstance(verdict, Unread) for each in found.values() for verdict in each.values()):
+        found = [book.checked(exercise) for exercise in book.course.of_section(section)]
+        rows.append(Row(section, {one.exercise.id: one.state for one in found}))
+        for one in found:
+            missing = [name for name, verdict in one.verdicts.items() if verdict.state == "to do"]
+            if 0 < len(missing) < len(one.verdicts):
+                names = {WORDS: one.exercise.answer_name}
+                rest[one.exercise.id] = tuple(names.get(name, name) for name in missing)
+        if any(isinstance(verdict, Unread) for one in found for verdict in one.verdicts.values()):
             unread.append(section)
     return Status(book.course, tuple(rows), book.language, tuple(sorted(book.borrowed)), rest, tuple(unread))
-
-
-def check_state(states: Iterable[State]) -> State:
-    """Return the state of an exercise with several parts: wrong if one is, done if all are."""
-    found = set(states)
-    if "wrong" in found:
-        return "wrong"
-    return "to do" if "to do" in found else "done"

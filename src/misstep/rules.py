@@ -30,38 +30,28 @@ __all__ = ["Rules", "broken_rules", "cell_content", "is_ours", "is_reference", "
 BY_NAME = frozenset(("eval", "exec", "compile", "trace", "getattr", "attrgetter", "import_module", "__import__"))
 """Functions that are told by a text what to compute or to call."""
 
-COURSE = f"{__package__}.course"
-"""The module that leads to the right answers."""
-
+COURSE = f"{__package__}.course"  # the module that leads to the right answers
+LIBRARY = sysconfig.get_path("stdlib")
+UNKNOWN = object()  # what a name stands for that is only known at run time
+MAX_HELD = 1000  # things that are looked at in a list or a dictionary that a function uses
 TYPED = ("<ipython", "<stdin", "<string>", "<console>", "<python-input", "<cell")
 """How the names of files begin that stand for code which was typed, or run by `exec`."""
 
-SAY = {
-    "written down": Text(
-        "The numbers are right, but {name} is not used: the exercise asks to compute them, not to write them down.",
-        "数值正确，但没有用到 {name}：题目要求算出结果，而不是直接写出。",
-    ),
-    "forbidden": Text(
-        "The numbers are right, but line {line} calls {name}, and the exercise asks to do without it.",
-        "数值正确，但第 {line} 行调用了 {name}，而题目要求不用它。",
-    ),
-    "is forbidden": Text(
-        "The numbers are right, but the function calls {name}, and the exercise asks to do without it.",
-        "数值正确，但函数调用了 {name}，而题目要求不用它。",
-    ),
-    "reference": Text(
-        "The numbers are right, but they are those of the reference, which it calls: write {name} yourself.",
-        "数值正确，但它调用的就是参考实现：请自己写出 {name}。",
-    ),
-}
+KEEPING = ("CACHE", "COPY", "POP_TOP", "PRECALL", "PUSH_NULL", "SWAP")
+"""Steps of a code after which what was loaded last is still at hand."""
 
-LIBRARY = sysconfig.get_path("stdlib")
-
-UNKNOWN = object()
-"""What a name stands for that is only known at run time."""
-
-MOST_HELD = 1000
-"""Of the things in a list or a dictionary that a function uses, how many are looked at."""
+WRITTEN_DOWN = Text(
+    "The numbers are right, but {name} is not used: the exercise asks to compute them, not to write them down.",
+    "数值正确，但没有用到 {name}：题目要求算出结果，而不是直接写出。",
+)
+FORBIDDEN = Text(
+    "The numbers are right, but {where} calls {name}, and the exercise asks to do without it.",
+    "数值正确，但{where}调用了 {name}，而题目要求不用它。",
+)
+REFERENCE = Text(
+    "The numbers are right, but they are those of the reference, which it calls: write {name} yourself.",
+    "数值正确，但它调用的就是参考实现：请自己写出 {name}。",
+)
 
 
 @dataclass(frozen=True)
@@ -110,24 +100,23 @@ def broken_rules(rules: Rules, part: Part, function: Callable[..., Any]) -> list
         return []
     forbidden, names = _forbidden(rules, part), rules.forbidden.get(part.name, ())
     symbols = {rules.symbols[name]: name for name in names if name in rules.symbols}
-    said, by_name = list[Text](), False
+    texts, by_name = list[Text](), False
     for value, line in _named(rules, function):
         if _is_answer(rules, part, value):
-            return [SAY["reference"].fill(name=part.name)]
+            return [reference(part)]
         if id(value) in forbidden:
             return [_calls(forbidden[id(value)], line)]
+        computed = set[str]()
         if isinstance(value, str):
-            said += [_calls(f"{rules.alias}.{name}", line) for name in names if re.search(rf"\b{name}\b", value)]
-            said += [_calls(f"{rules.alias}.{symbols[value]}", line)] if value in symbols else []
-        by_name |= isinstance(value, FunctionType | BuiltinFunctionType | type) and value.__name__ in BY_NAME
-        computed = (
-            {getattr(x, "symbol", "") for x in vars(value).get("quantities", ())}
-            if _is_program(rules, value)
-            else set()
-        )
-        said += [_calls(f"{rules.alias}.{symbols[symbol]}", line) for symbol in sorted(computed & symbols.keys())]
+            texts += [_calls(f"{rules.alias}.{name}", line) for name in names if re.search(rf"\b{name}\b", value)]
+            texts += [_calls(f"{rules.alias}.{symbols[value]}", line)] if value in symbols else []
+        elif isinstance(value, FunctionType | BuiltinFunctionType | type):
+            by_name |= value.__name__ in BY_NAME
+        elif _is_program(rules, value):
+            computed = {getattr(x, "symbol", "") for x in vars(value).get("quantities", ())}
+            texts += [_calls(f"{rules.alias}.{symbols[x]}", line) for x in sorted(computed & symbols.keys())]
         by_name |= bool(computed)
-    return said[:1] if by_name and said else _written_down(rules, part, function)
+    return texts[:1] if by_name and texts else _written_down(rules, part, function)
 
 
 def is_reference(part: Part, function: Callable[..., Any]) -> bool:
@@ -137,11 +126,12 @@ def is_reference(part: Part, function: Callable[..., Any]) -> bool:
 
 def reference(part: Part) -> Text:
     """Return the message on that."""
-    return SAY["reference"].fill(name=part.name)
+    return REFERENCE.fill(name=part.name)
 
 
 def _calls(name: str, line: int | None) -> Text:
-    return SAY["is forbidden"].fill(name=name) if line is None else SAY["forbidden"].fill(name=name, line=line)
+    where = Text("the function", "函数") if line is None else Text(f"line {line}", f"第 {line} 行")
+    return FORBIDDEN.fill(name=name, where=where)
 
 
 def _forbidden(rules: Rules, part: Part) -> dict[int, str]:
@@ -176,12 +166,9 @@ def _written_down(rules: Rules, part: Part, function: Callable[..., Any]) -> lis
     if part.name not in rules.computed or code is None or code.co_argcount <= rules.computed[part.name]:
         return []
     name = code.co_varnames[rules.computed[part.name]]
-    used = (step.argval for one in _codes(code) for step in dis.get_instructions(one) if "LOAD" in step.opname)
-    return (
-        []
-        if any(name in x if isinstance(x, tuple) else name == x for x in used)
-        else [SAY["written down"].fill(name=name)]
-    )
+    loads = (x.argval for one in _codes(code) for x in dis.get_instructions(one) if "LOAD" in x.opname)
+    is_used = any(name in x if isinstance(x, tuple) else name == x for x in loads)
+    return [] if is_used else [WRITTEN_DOWN.fill(name=name)]
 
 
 # ---------------------------------------------------------------- what a function names
@@ -228,9 +215,9 @@ def _inside(rules: Rules, value: Any) -> Iterator[Any]:
         if any(isinstance(x, FunctionType) and not is_ours(x.__code__.co_filename) for x in vars(value).values()):
             yield from vars(value).values()
     elif isinstance(value, list | tuple | set | frozenset):
-        yield from islice(value, MOST_HELD)
+        yield from islice(value, MAX_HELD)
     elif isinstance(value, dict):
-        yield from islice(value.values(), MOST_HELD)
+        yield from islice(value.values(), MAX_HELD)
     elif type(type(value)) is type and isinstance(vars(type(value)).get("__dict__"), GetSetDescriptorType):
         yield type(value)  # an object of a class, which may be the student's
 
@@ -273,10 +260,6 @@ def _of_code(rules: Rules, code: CodeType, known: Mapping[str, Any]) -> Iterator
             value = UNKNOWN
         if value is not UNKNOWN and not isinstance(value, CodeType):
             yield Named(value, line)
-
-
-KEEPING = ("CACHE", "COPY", "POP_TOP", "PRECALL", "PUSH_NULL", "SWAP")
-"""Steps after which what was loaded last is still at hand."""
 
 
 def _module(rules: Rules, name: str, *, whole: bool) -> Any:

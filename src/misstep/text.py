@@ -1,14 +1,18 @@
-"""A text in two languages, and its lines of a given width, in a script with spaces and in one without."""
+"""A text in two languages: filled with values, read from a data file, and broken into lines of a given width."""
 
 from __future__ import annotations
 
 import inspect
 import os
 import re
+import tomllib
 import unicodedata
-from typing import Literal, NamedTuple
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from typing import Any, Literal, NamedTuple
 
-__all__ = ["Language", "Text", "columns", "default_language", "hanging", "wrapped"]
+__all__ = ["Language", "Text", "as_text", "columns", "default_language", "hanging", "read", "say", "wrapped"]
 
 Language = Literal["en", "zh"]
 
@@ -16,6 +20,7 @@ WIDTH = 98
 WIDE_MARKS = "、。，；：！？（）【】《》“”‘’"
 NO_END = "（【《“‘("
 NO_START = "、。，；：！？）】》”’,.;:!?)"
+SHARED = "shared"  # the data file with passages that several texts of a package share: a name in braces stands for one
 
 
 class Text(NamedTuple):
@@ -32,6 +37,39 @@ class Text(NamedTuple):
         """Fill the braces; a value that is itself a `Text` goes to each language in that language."""
         en, zh = ({k: v.of(code) if isinstance(v, Text) else v for k, v in values.items()} for code in ("en", "zh"))
         return Text(self.en.format(**en), self.zh.format(**zh))
+
+
+def say(en: str, zh: str, **values: object) -> Text:
+    """Return a sentence of a message, its braces filled.
+
+    Examples
+    --------
+    >>> say("{n} bodies", "{n} 个刚体", n=3).en
+    '3 bodies'
+    """
+    return Text(en, zh).fill(**values)
+
+
+@cache
+def read(package: str, name: str) -> Mapping[str, Any]:
+    """Return the content of a TOML file by its package and its name; empty where there is none, as for a script."""
+    file = files(package).joinpath(f"{name}.toml") if package else None
+    return tomllib.loads(file.read_text(encoding="utf-8")) if file is not None and file.is_file() else {}
+
+
+def as_text(entry: Mapping[str, str], package: str = "") -> Text:
+    """Return an entry, ``en`` and ``zh``, of a data file as a text; shared passages are those of its package.
+
+    Examples
+    --------
+    >>> as_text({"en": "nq and nv", "zh": "nq 与 nv"}).of("zh")
+    'nq 与 nv'
+    """
+    text = Text(entry["en"], entry["zh"])
+    for word, passage in read(package, SHARED).items() if "{" in text.en else ():
+        mark = "{" + word + "}"
+        text = Text(text.en.replace(mark, passage["en"]), text.zh.replace(mark, passage["zh"]))
+    return text
 
 
 def default_language() -> Language:

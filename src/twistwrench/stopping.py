@@ -8,8 +8,10 @@ import stat
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Any
+
+from misstep.signals import without_interrupts
 
 __all__ = ["EXIT_SIGINT", "EXIT_SIGPIPE", "Stopped", "handle_signals", "without_interrupts"]
 
@@ -106,21 +108,3 @@ def _watch(fd: int, unread: threading.Event, done: threading.Event) -> None:
                 unread.set()
                 signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGTERM)
             return
-
-
-@contextmanager
-def without_interrupts() -> Iterator[None]:
-    """Within: nothing stops the work, and processes that are started get no signal but SIGKILL, from their parent.
-
-    A terminal sends Ctrl-C to all. And a process whose parent is stopped while it starts finds nothing to read.
-    """
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    every = {getattr(signal, name) for name in (*SIGNALS, "SIGALRM")}
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, every)
-    try:
-        yield
-    finally:
-        with suppress(ValueError):
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -8,9 +8,10 @@ import pytest
 
 import twistwrench as tw
 from misstep.cases import cases
-from misstep.errors import CourseError, UnknownName
+from misstep.errors import CourseError
 from misstep.judge import judge
 from twistwrench.cli import main
+from twistwrench.errors import NameNotFound
 from twistwrench.exercises import case, start
 from twistwrench.exercises.chapter import COURSE
 
@@ -45,8 +46,8 @@ def test_the_line_for_a_cell_runs_and_fails_in_the_same_way():
     names = {"tw": tw}
     exec(answer.case.cell, names)  # as the student pastes it
     (compared,) = answer.case.compared
-    assert np.array_equal(names["R"] @ names["x"] - names["p"], compared.blocks[0].got)
-    assert np.array_equal(names["R"] @ names["x"] + names["p"], compared.blocks[0].expected)
+    assert np.array_equal(names["R"] @ names["x"] - names["p"], compared.got)
+    assert np.array_equal(names["R"] @ names["x"] + names["p"], compared.expected)
 
 
 def test_the_line_for_a_shell_prints_the_same_numbers(capsys):
@@ -55,10 +56,10 @@ def test_the_line_for_a_shell_prints_the_same_numbers(capsys):
     printed = capsys.readouterr().out
     assert repr(float(answer.case.inputs[1][1][0])) in printed
     right = printed.split("x_A = array(")[1].split("]")[0].strip("[")
-    np.testing.assert_array_equal([float(x) for x in right.split(",")], answer.case.compared[0].blocks[0].expected)
+    np.testing.assert_array_equal([float(x) for x in right.split(",")], answer.case.compared[0].expected)
 
 
-def test_what_differs_is_marked_block_by_block():
+def test_what_differs_is_marked():
     def wrong(model, q, v, a):
         tau = tw.rnea(model, q, v, a)
         return tau, np.concatenate([tau[:4], tau[4:5] + 1, tau[5:]])
@@ -66,14 +67,9 @@ def test_what_differs_is_marked_block_by_block():
     found = verdict("torques_two_ways", wrong).case
     first, second = found.compared
     assert first.is_right
-    (bad,) = (block for block in second.blocks if block.wrong.any())
-    assert bad.places == [(4,)]
+    assert np.argwhere(second.wrong).tolist() == [[4]]
     text = found.text("en")
-    assert text.count("✗") == 1
-    assert text.count("✓") == 2
     assert text.count("[") - text.count("[..]") >= 1
-    row = next(line for line in text.splitlines() if line.strip().startswith("yours"))
-    assert row.count("[") == 1
     assert "应为" in found.text("zh")
 
 
@@ -109,7 +105,7 @@ def test_every_slip_hands_its_case_over_on_a_screen(part):
 def test_a_case_that_is_not_there_is_an_error():
     with pytest.raises(CourseError, match=r"act has the cases 0 to \d+, got 1000"):
         case("act", 1000)
-    with pytest.raises(UnknownName, match="adjoint"):
+    with pytest.raises(NameNotFound, match="adjoint"):
         case("adjont")
 
 

@@ -9,12 +9,13 @@ from xml.etree import ElementTree
 
 import pytest
 
-from misstep.errors import CourseError, UnknownName
-from misstep.folder import skeletons
-from misstep.grading.grading import grade
-from misstep.grading.sheets import as_csv, as_html, as_junit, as_table
-from misstep.grading.submissions import submissions
+from misstep import skeletons
+from misstep.errors import CourseError
+from misstep.grading import grade
+from misstep.sheets import as_csv, as_html, as_junit, as_table
+from misstep.submissions import submissions
 from twistwrench.cli import main
+from twistwrench.errors import NameNotFound
 from twistwrench.exercises import hint, solution, start
 from twistwrench.exercises.chapter import COURSE
 
@@ -77,6 +78,7 @@ def test_the_rows_say_what_was_used_and_why_there_are_no_points(found):
     assert rows["bela", "skew"]["reason"].startswith("It did not finish in 1.5 s")
     assert rows["chen", "skew"]["reason"] == "It ended the whole Python process."
     assert rows["chen", "act"]["slips"] == "translation-sign"
+    assert "the translation has the wrong sign" in rows["chen", "act"]["reason"]  # not how many cases are wrong
     assert "calls tw.rnea" in rows["dora", "base_wrench_at_rest"]["reason"]
     assert "that you are to write here" in rows["dora", "skew"]["reason"]
     assert "SyntaxError" in rows["emil", "act"]["reason"]
@@ -93,7 +95,7 @@ def test_the_page_has_the_points_and_the_words_beside_the_model_answer(found):
         assert "<script" not in page
         links = re.findall(r'href="#([^"]+)"', page)
         assert len(links) == sum(
-            any(v.state == "wrong" for v in m.verdicts.values()) for x in found for m in x.marks.values()
+            any(v.state == "wrong" for v in m.functions.values()) for x in found for m in x.marks.values()
         )
         assert all(page.count(f'id="{link}"') == 1 for link in links)
     assert "--seed 5" in as_html(found, 5, "en")
@@ -291,5 +293,5 @@ def test_a_negative_number_is_told_in_a_sentence(room, capsys, option):
 def test_what_is_not_there_is_an_error(room, tmp_path):
     with pytest.raises(CourseError, match="expected the folder of a student"):
         grade(COURSE, [tmp_path / "nobody"])
-    with pytest.raises(UnknownName, match="exercise or section"):
+    with pytest.raises(NameNotFound, match="exercise or section"):
         grade(COURSE, [room], only=["49.60"])

@@ -12,8 +12,8 @@ import pytest
 
 import twistwrench as tw
 from misstep.compare import plain
-from misstep.folder.workbook import Workbook
 from misstep.judge import judge
+from misstep.workbook import Workbook
 from twistwrench.exercises.chapter import COURSE
 
 from .hostile import BODIES, FILES, ODD, ROOMS, hand_in

@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from misstep import workbook
 from misstep.calls import call_or_none
 from misstep.cases import cases
 from misstep.errors import CourseError
-from misstep.folder import workbook
-from misstep.folder.skeletons import solved
-from misstep.folder.workbook import Workbook
+from misstep.isolation import opened
 from misstep.judge import judge
-from misstep.processes.isolation import opened
+from misstep.skeletons import solved
+from misstep.workbook import Workbook
 from twistwrench.cli import main
 from twistwrench.exercises import case, check, solution, start, status
 from twistwrench.exercises.chapter import COURSE

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from misstep.folder.workbook import Workbook
-from misstep.grading.submissions import submissions
 from misstep.judge import judge
+from misstep.submissions import submissions
+from misstep.workbook import Workbook
 from twistwrench.exercises import start
 from twistwrench.exercises.chapter import COURSE
 

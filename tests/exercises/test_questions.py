@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
-from misstep.errors import UnknownName
+from twistwrench.errors import NameNotFound
 from twistwrench.exercises.asking import SECTIONS, Asked, questions
 from twistwrench.exercises.questions.gaits import GAITS, move
 
@@ -580,8 +580,8 @@ def test_the_guess_is_drawn_beside_the_truth():
 @pytest.mark.parametrize(
     ("name", "guess", "error", "told"),
     [
-        ("49.7-knee", None, UnknownName, "49.7-knees"),
-        ("49.12-knees", None, UnknownName, "49.12-knees"),
+        ("49.7-knee", None, NameNotFound, "49.7-knees"),
+        ("49.12-knees", None, NameNotFound, "49.12-knees"),
         ("49.7-knees", "d", ValueError, "a, b, c"),
         ("49.7-knees", 0.0, ValueError, "a, b, c"),
         ("49.7-lifted", "heavy", ValueError, "kg"),

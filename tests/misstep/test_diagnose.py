@@ -58,15 +58,6 @@ def test_a_helper_in_the_same_file_is_searched_as_well(tmp_path):
     assert any("ine 2" in x.en or "ine 6" in x.en for x in found.lines)
 
 
-def test_two_changes_are_found_where_each_makes_less_wrong(tmp_path):
-    text = "def projectile(speed, angle, t):\n    x = speed * np.sin(angle) * t\n"
-    text += "    y = speed * np.sin(angle) * t + 9.81 * t**2 / 2\n    return np.array([x, y])\n"
-    found = diagnosis(tmp_path, PROJECTILE, text)
-    assert found.how == "line"
-    assert "line 2" in found.lines[-1].en
-    assert "line 3" in found.lines[-1].en
-
-
 def test_a_solution_without_source_is_compared_with_edits_of_a_right_one():
     cases = list(CENTER.cases(np.random.default_rng(2)))
     answers = [m @ r for m, r in cases]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from misstep.grammar import Habits, code, edits
-from misstep.program import Change, MemoizedPackage, Program, source_with_helpers, text_of
+from misstep.program import Change, Program, source_with_helpers, text_of
 
 from .functions import center, projectile, stiffness, written
 
@@ -40,15 +40,6 @@ def test_a_loop_that_a_change_makes_endless_is_stopped(tmp_path):
     with pytest.raises(RuntimeError, match="endless"):
         program.mutant((Change(place, code("k")),))(3)
     assert program.compiled()(3) == 3
-
-
-def test_a_package_computes_nothing_twice_and_lends_no_array():
-    calls = []
-    package = MemoizedPackage(type("package", (), {"twice": staticmethod(lambda x: calls.append(x) or 2 * x)}))
-    first = package.twice(np.ones(2))
-    first[0] = 7
-    np.testing.assert_array_equal(package.twice(np.ones(2)), [2, 2])
-    assert len(calls) == 1
 
 
 def texts(function, *arguments, habits=None):

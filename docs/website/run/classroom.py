@@ -139,7 +139,7 @@ def explained(error: BaseException) -> str:
 
 def folder(answers: dict[str, str], state: str, language: str) -> Path:
     """Write the folder of a student: the skeletons with the answers in their places, and what was remembered."""
-    from misstep.folder import skeletons
+    from misstep import skeletons
     from twistwrench.exercises import start
     from twistwrench.exercises.chapter import COURSE
 
@@ -165,7 +165,7 @@ def remembered() -> str:
 
 def try_out(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Run an answer as a cell, with what stands above it in its file."""
-    from misstep.folder import skeletons
+    from misstep import skeletons
     from twistwrench.exercises.chapter import COURSE
 
     exercise = COURSE.exercise(number)
@@ -177,9 +177,9 @@ def try_out(number: str, answers: dict[str, str], state: str, language: str) -> 
 
 def check(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Check an exercise, and return the verdict as HTML."""
-    from misstep.notebook.cells import checked
-    from misstep.notebook.markup import checked_html
-    from misstep.processes.isolation import opened
+    from misstep.checked import checked_html
+    from misstep.isolation import opened
+    from misstep.notebook import checked
     from twistwrench.exercises.chapter import COURSE
 
     outputs: list[Output] = []
@@ -211,7 +211,7 @@ def in_the_cell(message: str, number: str, answer: str) -> str:
 
 def hint(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
     """Return the next hint; after the last one a solution."""
-    from misstep.folder.workbook import Workbook
+    from misstep.workbook import Workbook
     from twistwrench import exercises
     from twistwrench.exercises.chapter import COURSE
 
@@ -224,7 +224,7 @@ def hint(number: str, answers: dict[str, str], state: str, language: str) -> lis
 
 def answers(files: dict[str, str]) -> list[Output]:
     """Return the answers in the files of a student's folder, by their numbers, where they differ from the skeleton."""
-    from misstep.folder import skeletons
+    from misstep import skeletons
     from twistwrench.exercises.chapter import COURSE
 
     found = []

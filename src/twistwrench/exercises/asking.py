@@ -15,9 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from misstep.errors import check_known
-from misstep.notebook.markup import STYLE
+from misstep.checked import STYLE
 from misstep.text import Language, Text, default_language, wrapped
+
+from ..errors import check_known
 
 __all__ = ["SECTIONS", "Asked", "Question", "ask", "questions"]
 
@@ -243,7 +244,7 @@ def ask(name: str, guess: float | str | EllipsisType | None = None, *, language:
 
     Raises
     ------
-    UnknownName
+    NameNotFound
         If there is no such question.
     ValueError
         If the guess is no letter of the choices, or no finite number.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from misstep.course import Course
 from misstep.text import Text
 
+from ..errors import NameNotFound
 from .domains import DOMAINS, special_cases
 from .field import FIELD
 from .forbidden import RULES
@@ -88,4 +89,5 @@ COURSE = Course(
     state_file=".twistwrench.json",
     opening=OPENING,
     title_of=title,
+    unknown=NameNotFound,
 )

@@ -8,11 +8,9 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from misstep import cases, helping, progress
-from misstep.folder import skeletons, workbook
-from misstep.notebook import cells
-from misstep.notebook.cells import Checked
-from misstep.processes.isolation import TIME_LIMIT
+from misstep import cases, helping, notebook, progress, skeletons, workbook
+from misstep.checked import Checked
+from misstep.isolation import TIME_LIMIT_S
 from misstep.progress import Status
 from misstep.text import Language
 
@@ -55,7 +53,7 @@ def mine(name: str) -> Callable[..., Any]:
 
     Raises
     ------
-    UnknownName
+    NameNotFound
         If no exercise has a function of that name.
 
     Examples
@@ -75,7 +73,7 @@ def check(
     words: str | None = None,
     language: Language | None = None,
     seed: int | None = None,
-    time_limit: float = TIME_LIMIT,
+    time_limit: float = TIME_LIMIT_S,
     **formulas: str,
 ) -> Checked:
     """Check an exercise where it is written: in a notebook, a script or a shell.
@@ -96,8 +94,7 @@ def check(
     time_limit : float
         Seconds for one call, in a process of its own; 0 for none, and no other process.
     formulas : str
-        Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them,
-        and compares exactly where the right answer is a formula.
+        Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them.
 
     Returns
     -------
@@ -106,7 +103,7 @@ def check(
 
     Raises
     ------
-    UnknownName
+    NameNotFound
         If there is no such exercise, or it has no function of that name.
     CourseError
         If there is nothing to check.
@@ -121,7 +118,7 @@ def check(
     <BLANKLINE>
     Section 49.0: ●... of 5 exercises
     """
-    return cells.check(
+    return notebook.check(
         COURSE,
         number,
         *functions,
@@ -153,7 +150,7 @@ def case(name: str, number: int = 0, *, seed: int = 0) -> tuple[Any, ...]:
 
     Raises
     ------
-    UnknownName
+    NameNotFound
         If no exercise has a function of that name.
     CourseError
         If there are fewer cases.
@@ -196,7 +193,7 @@ def hint(
 
     Raises
     ------
-    UnknownName
+    NameNotFound
         If there is no such exercise or function.
 
     Examples
@@ -228,7 +225,7 @@ def solution(name: str, folder: str | PathLike[str] = ".", *, language: Language
 
     Raises
     ------
-    UnknownName
+    NameNotFound
         If there is no such exercise or function.
 
     Examples
@@ -244,7 +241,7 @@ def status(
     *,
     language: Language | None = None,
     seed: int | None = None,
-    time_limit: float = TIME_LIMIT,
+    time_limit: float = TIME_LIMIT_S,
 ) -> Status:
     """Check every exercise of a folder and return the progress.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from misstep.exercise import Slip
-from misstep.prose import as_text, read
+from misstep.text import as_text, read
 
 __all__ = ["FILES", "SLIPS", "Slip"]
 

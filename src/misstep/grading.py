@@ -12,50 +12,17 @@ from functools import partial
 from os import PathLike
 from pathlib import Path
 
-from ..calls import shown
-from ..course import Course
-from ..errors import CourseError, check_known
-from ..exercise import Exercise
-from ..folder.workbook import Workbook
-from ..judge import Verdict
-from ..processes.isolation import TIME_LIMIT, IsolatedWorkbook, drawn, opened
-from ..processes.worker import not_judged
-from ..text import Language, Text
+from .calls import shown
+from .checked import Checked
+from .course import Course
+from .errors import CourseError, check_known
+from .exercise import Exercise
+from .isolation import TIME_LIMIT_S, drawn, not_judged, opened
 from .submissions import Submission, submissions
+from .text import Language, Text
+from .workbook import Workbook
 
-__all__ = ["Graded", "Mark", "grade"]
-
-
-@dataclass(frozen=True)
-class Mark:
-    """The points of a student in one exercise.
-
-    Attributes
-    ----------
-    exercise : Exercise
-    verdicts : dict
-        From the name of each function to its verdict.
-    words : str, optional
-        The answer in words, to be read by the instructor; None where there is none.
-    words_verdict : Verdict, optional
-        Whether there is enough of it; None where none is asked for.
-    hints : int
-        How many were asked for.
-    solution : bool
-        Whether the solution was shown.
-    """
-
-    exercise: Exercise
-    verdicts: dict[str, Verdict]
-    words: str | None
-    words_verdict: Verdict | None
-    hints: int
-    solution: bool
-
-    @property
-    def points(self) -> float:
-        """The part of the functions that is right, from 0 to 1. Words are not in it."""
-        return sum(verdict.state == "done" for verdict in self.verdicts.values()) / len(self.verdicts)
+__all__ = ["Graded", "grade"]
 
 
 @dataclass(frozen=True)
@@ -75,7 +42,7 @@ class Graded:
     """
 
     student: str
-    marks: dict[str, Mark]
+    marks: dict[str, Checked]
     seconds: float
     remarks: tuple[Text, ...] = ()
 
@@ -91,10 +58,10 @@ def grade(
     *,
     only: Sequence[str] = (),
     seed: int = 0,
-    time_limit: float = TIME_LIMIT,
+    time_limit: float = TIME_LIMIT_S,
     jobs: int | None = None,
     language: Language = "en",
-    ended: Callable[[list[Graded], Graded, int], object] | None = None,
+    ended: Callable[[list[Graded], Graded, int], object] = lambda found, one, of: None,
 ) -> list[Graded]:
     """Grade what students have handed in. Each runs in processes of its own, so that none can disturb another.
 
@@ -113,7 +80,7 @@ def grade(
         Students at a time; one for each processor unless given.
     language : {"en", "zh"}
         Of the messages.
-    ended : callable, optional
+    ended : callable
         Called whenever a student is done: with all that are done, in their order, with this one, and with the number
         of all students.
 
@@ -131,13 +98,16 @@ def grade(
     """
     if jobs is not None and jobs < 1:
         raise CourseError(f"jobs: expected a whole number, 1 or more, got {jobs}")
-    exercises, books = _chosen(course, only), list[Workbook]()
+    for number in only:
+        check_known("exercise or section", number, (*course.sections, *course.numbers), course.unknown)
+    exercises = [e for e in course.exercises if not only or e.id in only or e.section in only]
     sections = list(dict.fromkeys(exercise.section for exercise in exercises))
-    reader = partial(opened, language=language, seed=drawn(seed), time_limit=time_limit, quiet=True)
+    reader = partial(opened, course, language=language, seed=drawn(seed), time_limit=time_limit, printed=None)
+    books: list[Workbook] = []
 
     def graded(one: Submission) -> Graded:
-        start, marks = time.perf_counter(), dict[str, Mark]()
-        with reader(course, one.folder, files=one.files) as book:
+        start = time.perf_counter()
+        with reader(one.folder, files=one.files) as book:
             books.append(book)
             marks = {exercise.id: _mark(book, exercise) for exercise in exercises}
         return Graded(one.student, marks, time.perf_counter() - start, one.remarks)
@@ -152,35 +122,19 @@ def grade(
         try:
             for done in as_completed(running):
                 found[running[done]] = done.result()
-                if ended is not None:
-                    ended([found[k] for k in sorted(found)], done.result(), len(every))
+                ended([found[k] for k in sorted(found)], done.result(), len(every))
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             for book in books:
-                if isinstance(book, IsolatedWorkbook):
-                    book.close()
+                book.close()
             raise
     return [found[k] for k in sorted(found)]
 
 
-def _chosen(course: Course, only: Sequence[str]) -> list[Exercise]:
-    """Return the exercises of the given numbers and sections, in the chapter's order."""
-    for number in only:
-        check_known("exercise or section", number, (*course.sections, *course.numbers))
-    return [e for e in course.exercises if not only or e.id in only or e.section in only]
-
-
-def _mark(book: Workbook, exercise: Exercise) -> Mark:
-    """Return the points in one exercise; a function that the check fails on has none, and the reason."""
-    verdicts = {}
-    for part in exercise.parts:
-        try:
-            verdicts[part.name] = book.verdict(exercise, part)
-        except Exception as error:
-            verdicts[part.name] = not_judged(exercise, part, shown(error))
+def _mark(book: Workbook, exercise: Exercise) -> Checked:
+    """Judge an exercise; where the check fails on it, its functions have no points, and the reason."""
     try:
-        words, enough = book.words(exercise) if exercise.answer is not None else None, book.verdict_in_words(exercise)
+        return book.checked(exercise)
     except Exception as error:
-        words, enough = None, not_judged(exercise, exercise.parts[0], shown(error))
-    hints, was_shown = int(book.state["hints"].get(exercise.id, 0)), exercise.id in book.state["solutions"]
-    return Mark(exercise, verdicts, words, enough, hints, was_shown)
+        verdicts = {part.name: not_judged(exercise, part, shown(error)) for part in exercise.parts}
+        return Checked(exercise, verdicts, None, book.language)

@@ -17,57 +17,41 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ..calls import shown
-from ..course import Course
-from ..errors import CourseError
-from ..exercise import Exercise, Part
-from ..files import write_text
-from ..judge import Verdict, judge
-from ..messages import message
-from ..rules import is_reference, reference
-from ..text import Language, Text, default_language
+from .calls import shown
+from .checked import WORDS, Checked
+from .course import Course
+from .errors import CourseError
+from .exercise import Exercise, Part
+from .files import write_text
 from .formulas import judge_formula, typed
+from .judge import judge
+from .rules import is_reference, reference
+from .text import Language, Text, default_language
+from .verdict import Unread, Verdict, headed
 
-__all__ = [
-    "LARGEST_FILE",
-    "Unread",
-    "Workbook",
-    "content",
-    "has_started",
-    "mine",
-    "offered",
-    "verdict_on_words",
-]
+__all__ = ["MAX_FILE_BYTES", "Workbook", "content", "mine", "offered", "verdict_on_words"]
 
-LARGEST_FILE = 1_000_000
-"""Bytes of a student's file; the largest of the solved ones has 20 kB."""
+MAX_FILE_BYTES = 1_000_000  # of a student's file; the largest of the solved ones has 20 kB
+MAX_HINTS = 100  # more than any exercise has
+MIN_CHARACTERS = 12  # of an answer in words; a sentence in Chinese needs no more
 
-MOST_HINTS = 100
-"""More than any exercise has."""
-
-SHORTEST_ANSWER = 12
-"""Characters of an answer in words; a sentence in Chinese needs no more."""
-
-
-class Unread(Verdict):
-    """The verdict on each function of a file that cannot be read."""
+NO_FILE = Text("{file} is not there: `{command} start` brings it back.", "缺少 {file}：{command} start 可重新生成。")
+ENCODING = Text(
+    "{file} is not written in UTF-8: save it as UTF-8. ({error})", "{file} 请另存为 UTF-8 编码。（{error}）"
+)
+UNREADABLE = Text("{file} cannot be read: {error}", "无法读取 {file}：{error}")
+UNREADABLE_LINE = Text("{file}, line {line} cannot be read: {error}", "{file} 第 {line} 行无法读取：{error}")
+PATCHED = Text("{file} changes `{name}`: give what you write another name.", "{file} 改动了 `{name}`：请换一个名称。")
+NO_FUNCTION = Text("There is no function {name} in {file} any more.", "{file} 中已没有函数 {name}。")
+NO_WORDS = Text("Now explain it in words: fill in {name}.", "请再用文字作答：填写 {name}。")
+SHORT = Text("{name} is very short: a sentence or two, please.", "{name} 太短：请写一两句话。")
 
 
 class Workbook:
-    """A folder that `start` has filled.
+    """A folder that `start` has filled, or that is yet to be. Its files are read once: make a new one for changes.
 
-    The student's files are read once: make a new one to see what has been changed since.
-
-    Parameters
-    ----------
-    course : Course
-    folder : str or path
-    language : {"en", "zh"}, optional
-        Of the messages; the one that the folder was started in unless given.
-    seed : int
-        Of the random cases.
-    files : mapping
-        From a section to the file with its answers, where that has another name than `start` has given it.
+    The language is that of the messages, the one that it was started in unless given; `files` are by section those that
+    have another name than `start` has given them.
     """
 
     def __init__(
@@ -92,19 +76,24 @@ class Workbook:
         self.borrowed: set[str] = set()
         """Functions that `mine` took from the reference."""
 
-    @classmethod
-    def existing(cls, course: Course, folder: str | PathLike[str], *, language: Language | None = None) -> Workbook:
-        """Open a folder that was started before.
+    def must_be_started(self) -> None:
+        """Raise a CourseError unless the folder was started; its message says where one may be that was."""
+        if self.is_started:
+            return
+        named, new = f"{self.course.command} status DIR", f"{self.course.command} start DIR"
+        where = f"name the folder that they are in: {named} (to make one: {new})"
+        near = [self.folder / "..", *(sorted(self.folder.iterdir()) if self.folder.is_dir() else ())]
+        if other := next((x for x in near if Workbook(self.course, x).is_started), None):
+            where = f"there are some in {other}: {self.course.command} status {shlex.quote(str(other))}"
+        raise CourseError(f"{self.folder}: no exercises here; {where}")
 
-        Raises
-        ------
-        CourseError
-            If nothing was started there.
-        """
-        book = cls(course, folder, language=language)
-        if not has_started(course, book.folder):
-            raise CourseError(f"{book.folder}: no exercises here; {_where(course, book.folder)}")
-        return book
+    @property
+    def is_started(self) -> bool:
+        """Whether the folder holds a student's files."""
+        return any(isfile(self.folder / file) for file in self.course.files)
+
+    def close(self) -> None:
+        """End what reads and judges the files, where that is another process."""
 
     # ---------------------------------------------------------------- what is remembered
 
@@ -116,11 +105,10 @@ class Workbook:
         except (OSError, ValueError, RecursionError):
             kept = {}
         kept = kept if isinstance(kept, dict) else {}
-        hints, *lists = (kept.get(name) for name in ("hints", "compared", "solutions"))
-        shown = hints.items() if isinstance(hints, dict) else ()
-        counts = {number: n for number, n in shown if isinstance(n, int) and 0 <= n < MOST_HINTS}
-        compared, solutions = ([x for x in y if isinstance(x, str)] if isinstance(y, list) else [] for y in lists)
-        return {**kept, "hints": counts, "compared": compared, "solutions": solutions}
+        lists = {name: kept[name] if isinstance(kept.get(name), list) else [] for name in ("compared", "solutions")}
+        hints = kept["hints"].items() if isinstance(kept.get("hints"), dict) else ()
+        counts = {number: n for number, n in hints if isinstance(n, int) and 0 <= n < MAX_HINTS}
+        return {**kept, "hints": counts} | {name: [x for x in y if isinstance(x, str)] for name, y in lists.items()}
 
     def remember(self, **news: Any) -> None:
         """Write the hidden file."""
@@ -145,22 +133,17 @@ class Workbook:
         if section not in self._modules:
             self._modules[section] = None  # while it is being read
             self._modules[section] = self._read(self.path(section))
-        return self._modules[section] or message(
-            "no file", file=self.course.file_name(section), command=self.course.command
-        )
-
-    def _no_file(self, name: str) -> Text:
-        return message("no file", file=name, command=self.course.command)
+        return self._modules[section] or NO_FILE.fill(file=self.path(section).name, command=self.course.command)
 
     def _read(self, path: Path) -> ModuleType | Text:
         if not path.exists():
-            return self._no_file(path.name)
+            return NO_FILE.fill(file=path.name, command=self.course.command)
         module = ModuleType(path.stem)
         module.__dict__.update(__file__=str(path), __workbook__=self)
         try:
             source = decode_source(content(path))  # as Python reads it: with a BOM, or a line that names a coding
         except (OSError, SyntaxError, UnicodeError) as error:
-            return message("file" if isinstance(error, OSError) else "encoding", file=path.name, error=error)
+            return (UNREADABLE if isinstance(error, OSError) else ENCODING).fill(file=path.name, error=error)
         kept = {name: (x, dict(vars(x))) for name, x in self.course.shared.items()}
         try:
             with _importable(path.parent), self.watch(path.name):
@@ -170,12 +153,11 @@ class Workbook:
         except KeyboardInterrupt:
             raise
         except BaseException as error:  # whatever the student's file raises becomes a message
-            said = shown(error)
-            if (line := _line(error, path)) is not None:
-                return message("file at line", file=path.name, line=line, error=said)
-            return message("file", file=path.name, error=said)
+            lines = [x.lineno for x in traceback.extract_tb(error.__traceback__) if x.filename == str(path)]
+            line = error.lineno if isinstance(error, SyntaxError) else (lines or [None])[-1]
+            return (UNREADABLE if line is None else UNREADABLE_LINE).fill(file=path.name, line=line, error=shown(error))
         changed = [*_restored(kept)]
-        return message("patched", file=path.name, name=changed[0]) if changed else module
+        return PATCHED.fill(file=path.name, name=changed[0]) if changed else module
 
     def words(self, exercise: Exercise) -> str | None:
         """Return the student's answer in words, None if it is not written yet."""
@@ -183,7 +165,7 @@ class Workbook:
         text = None if isinstance(module, Text) else vars(module).get(exercise.answer_name)
         return str.strip(text) or None if isinstance(text, str) else None
 
-    # ---------------------------------------------------------------- the progress
+    # ---------------------------------------------------------------- the verdicts
 
     def verdict(self, exercise: Exercise, part: Part) -> Verdict:
         """Judge one function; each is judged once."""
@@ -196,37 +178,40 @@ class Workbook:
         return self._verdicts[part.name]
 
     def _judge(self, exercise: Exercise, part: Part) -> Verdict:
-        module, file = self.module(exercise.section), self.path(exercise.section).name
-        head = message("head", id=exercise.id, name=part.name)
+        module, path = self.module(exercise.section), self.path(exercise.section)
         if isinstance(module, Text):
-            missing = not self.path(exercise.section).exists()
-            return Verdict("to do", (head, module)) if missing else Unread("wrong", (head, module))
+            verdict = headed(exercise, part, module)
+            return Unread("wrong", verdict.lines) if path.exists() else Verdict("to do", verdict.lines)
         function = vars(module).get(part.name)
         if isinstance(function, str):
             return judge_formula(exercise, part, function, seed=self.seed)
         if not callable(function):
-            phrase = "missing" if function is None else "not a function"
-            return Verdict("wrong", (head, message(phrase, name=part.name, file=file)))
+            return headed(exercise, part, NO_FUNCTION.fill(name=part.name, file=path.name))
+        return self.judge_function(exercise, part, function)
+
+    def judge_function(self, exercise: Exercise, part: Part, function: Callable[..., Any]) -> Verdict:
+        """Judge a function as the answer to a part."""
         if is_reference(part, function):
-            return Verdict("wrong", (head, reference(part)))
+            return headed(exercise, part, reference(part))
         watch = partial(self.watch, part.name)
         return judge(exercise, part, function, seed=self.seed, watch=watch, search=self.search)
 
-    def verdict_in_words(self, exercise: Exercise) -> Verdict | None:
-        """Judge whether the answer in words is written; None where the exercise needs no words."""
-        if exercise.answer is None:
-            return None
+    def verdict_in_words(self, exercise: Exercise) -> Verdict:
+        """Judge whether the answer in words is written."""
         words = self.words(exercise)
         if words is not None:
             return verdict_on_words(exercise, words)
         are_right = all(self.verdict(exercise, part).state == "done" for part in exercise.parts)
-        return Verdict("to do", (message("words missing", name=exercise.answer_name),) if are_right else ())
+        return Verdict("to do", (NO_WORDS.fill(name=exercise.answer_name),) if are_right else ())
 
-    def verdicts(self, exercise: Exercise) -> dict[str, Verdict]:
-        """Return the verdicts on all parts of an exercise, by the name in the file."""
-        found = {part.name: self.verdict(exercise, part) for part in exercise.parts}
-        words = self.verdict_in_words(exercise)
-        return found if words is None else {**found, exercise.answer_name: words}
+    def checked(self, exercise: Exercise) -> Checked:
+        """Judge all functions of an exercise, and its answer in words."""
+        verdicts = {part.name: self.verdict(exercise, part) for part in exercise.parts}
+        if exercise.answer is not None:
+            verdicts[WORDS] = self.verdict_in_words(exercise)
+        words = None if exercise.answer is None else self.words(exercise)
+        hints, has_solution = self.state["hints"].get(exercise.id, 0), exercise.id in self.state["solutions"]
+        return Checked(exercise, verdicts, words, self.language, hints=hints, solution=has_solution)
 
     def best(self, name: str) -> Callable[..., Any]:
         """Return the student's function where it is right, the reference where it is not yet."""
@@ -244,34 +229,20 @@ class Workbook:
 
 def verdict_on_words(exercise: Exercise, words: str) -> Verdict:
     """Judge an answer in words: only whether there is enough of it."""
-    if len(words.strip()) < SHORTEST_ANSWER:
-        return Verdict("wrong", (message("words short", name=exercise.answer_name),))
-    return Verdict("done")
+    if len(words.strip()) >= MIN_CHARACTERS:
+        return Verdict("done")
+    return Verdict("wrong", (SHORT.fill(name=exercise.answer_name),))
 
 
 def content(path: Path) -> bytes:
-    """Return what is in a file.
-
-    Raises
-    ------
-    OSError
-        If it is not a regular file, as a pipe that nobody writes to, or has more than 1 MB.
-    """
+    """Return what is in a file; an OSError where it is not a regular one, as a pipe is, or has more than 1 MB."""
     about = path.stat()
     if not stat.S_ISREG(about.st_mode):
         raise OSError("it is not a regular file")
-    if about.st_size > LARGEST_FILE:
-        raise OSError(f"it has {about.st_size / 1e6:.1f} MB, and may have {LARGEST_FILE / 1e6:.0f} MB")
+    if about.st_size > MAX_FILE_BYTES:
+        raise OSError(f"it has {about.st_size / 1e6:.1f} MB, and may have {MAX_FILE_BYTES / 1e6:.0f} MB")
     with path.open("rb") as file:
-        return file.read(LARGEST_FILE)
-
-
-def _line(error: BaseException, path: Path) -> int | None:
-    """Return the line of a file at which an error is, or was raised."""
-    if isinstance(error, SyntaxError):
-        return error.lineno
-    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
-    return lines[-1] if lines else None
+        return file.read(MAX_FILE_BYTES)
 
 
 def _restored(kept: dict[str, tuple[ModuleType, dict[str, Any]]]) -> Iterator[str]:
@@ -299,36 +270,17 @@ def _importable(folder: Path) -> Iterator[None]:
 
 
 def mine(course: Course, name: str, asker: Mapping[str, Any]) -> Callable[..., Any]:
-    """Return a function of an earlier exercise: the student's once it is right, the reference until then.
-
-    The folder is that of the file with the names of `asker`.
-    """
+    """Return what `offered` does, for the folder of the file with the names of `asker`."""
     return offered(name, asker.get("__workbook__") or Workbook(course, Path(asker.get("__file__", "")).parent))
 
 
 def offered(name: str, book: Workbook) -> Callable[..., Any]:
-    """Return what `mine` does, for a folder."""
+    """Return a function of an earlier exercise: the student's once it is right, the reference until then."""
     _, part = book.course.find_part(name)
 
     def function(*arguments: Any, **named: Any) -> Any:
         return book.best(name)(*arguments, **named)
 
     function.__name__, function.__doc__ = name, part.doc.en
-    function.mine, function.folder = name, book.folder  # type: ignore[attr-defined]
-    function.course = book.course.module  # type: ignore[attr-defined]
+    vars(function).update(mine=name, folder=book.folder, course=book.course.module)
     return function
-
-
-def has_started(course: Course, folder: Path) -> bool:
-    """Whether a folder holds a student's files."""
-    return any(isfile(folder / file) for file in course.files)
-
-
-def _where(course: Course, folder: Path) -> str:
-    """Return where the exercises may be, for a student who is in another folder."""
-    near = [folder / "..", *(sorted(folder.iterdir()) if folder.is_dir() else ())]
-    for other in near:
-        if has_started(course, other):
-            return f"there are some in {other}: {course.command} status {shlex.quote(str(other))}"
-    named, new = f"{course.command} status DIR", f"{course.command} start DIR"
-    return f"name the folder that they are in: {named} (to make one: {new})"

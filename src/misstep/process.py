@@ -1,4 +1,7 @@
-"""The process that runs a student's code, as it is seen from outside: asked, watched by a clock, and ended."""
+"""The process that runs a student's code, as it is seen from outside: asked, watched by a clock, and ended.
+
+It answers in lines of JSON, of which only plain values are made: nothing that it sends is ever run.
+"""
 
 from __future__ import annotations
 
@@ -12,68 +15,27 @@ import tempfile
 import threading
 import time
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any, cast
 
-from .messages import as_json, from_json
+from .signals import without_interrupts
+from .verdict import as_json, from_json
 
 __all__ = ["Died", "Process"]
 
-PROGRAM = "import sys; sys.path[:] = {path!r}; from misstep.processes.worker import main; main()"
-
-MARK = "MISSTEP_WORKER"
-"""A variable of the environment that all have which such a process starts."""
-
-SLACK_S = 5.0
-"""How much later than its own clock that of the other process may be."""
-
-LONGEST = 30
-"""Calls' time limits that an answer may take, with all of its cases and the search for what is wrong."""
-
-SHORTEST_S = 60.0
-"""What it may take in any case."""
-
-LARGEST = 16_000_000
-"""Bytes of a message; a verdict has some thousands."""
-
-ROUNDS = 20
-"""How often what was started is looked for: it may start more in the meantime."""
-
-AGAIN_S = 0.5
-
-SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGALRM")
-
-
-@contextmanager
-def without_interrupts() -> Iterator[None]:
-    """Let nothing stop the work within: processes that are started then get no Ctrl-C, which is for the parent."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {getattr(signal, name) for name in SIGNALS})
-    try:
-        yield
-    finally:
-        with suppress(ValueError):
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+PROGRAM = "import sys; sys.path[:] = {path!r}; from misstep.worker import main; main()"
+MARK = "MISSTEP_WORKER"  # a variable of the environment that all have which such a process starts
+SLACK_S = 5.0  # how much later than its own clock that of the other process may be
+MAX_CALLS = 30  # time limits of calls that an answer may take, with all of its cases and the search for what is wrong
+MIN_ANSWER_S = 60.0  # what an answer may take in any case
+MAX_MESSAGE_BYTES = 16_000_000  # a verdict has some thousands
+MAX_ROUNDS = 20  # in which what was started is looked for: it may start more in the meantime
+POLL_S = 0.5
 
 
 class Died(Exception):
-    """The process ended, or was ended.
-
-    Parameters
-    ----------
-    at : str or None
-        What it was running of the student's; None for nothing.
-    call : int
-        Which call of it, counted from 0.
-    late : bool
-        Whether it took too long.
-    trace : str
-        Where it was.
-    """
+    """The process ended, or was ended: at which function of the student's and which call of it, late, and where."""
 
     def __init__(self, at: str | None, call: int, late: bool, trace: str) -> None:
         super().__init__()
@@ -81,24 +43,14 @@ class Died(Exception):
 
 
 class Process:
-    """A process that answers questions, one at a time.
-
-    Parameters
-    ----------
-    task : dict
-        What it needs to know first, of what `messages` can write.
-    limit : float
-        Seconds for a call of a student's function.
-    printed : file, optional
-        Where what it prints goes; nowhere unless given.
-    """
+    """A process that answers questions, one at a time. It is first told its task; what it prints goes to a file."""
 
     def __init__(self, task: dict[str, Any], limit: float, printed: IO[Any] | None) -> None:
         self._limit, self._word = limit, secrets.token_hex(16)
         handle, trace = tempfile.mkstemp(prefix="misstep-", suffix=".trace")
         os.close(handle)
         self._trace = Path(trace)
-        with without_interrupts():  # Ctrl-C is for the parent
+        with without_interrupts():
             self._process = subprocess.Popen(
                 [sys.executable, "-u", "-c", PROGRAM.format(path=sys.path)],
                 stdin=subprocess.PIPE,
@@ -111,12 +63,12 @@ class Process:
         self._requests, self._replies = cast("tuple[IO[bytes], IO[bytes]]", (self._process.stdin, self._process.stdout))
         self._heard: queue.SimpleQueue[Any] = queue.SimpleQueue()
         threading.Thread(target=self._listen, daemon=True).start()
-        self._send([self._word, limit, trace, [[key, value] for key, value in task.items()]])
+        self._send([self._word, limit, trace, [*task.items()]])
 
     def _listen(self) -> None:
         """Read what the process tells; a line without its word is of the student's code, and is dropped."""
         with suppress(OSError, ValueError), self._replies:
-            while line := self._replies.readline(LARGEST):
+            while line := self._replies.readline(MAX_MESSAGE_BYTES):
                 _, word, text = line.rpartition(self._word.encode())
                 if word:
                     with suppress(ValueError):
@@ -129,21 +81,15 @@ class Process:
             self._requests.flush()
 
     def ask(self, *question: Any) -> Any:
-        """Return the answer to a question.
-
-        Raises
-        ------
-        Died
-            If the process ends before, or takes too long.
-        """
+        """Return the answer to a question; it raises `Died` where the process ends before, or takes too long."""
         begun: list[str] = []
         calls: Counter[str] = Counter()
-        end, due = time.monotonic() + max(SHORTEST_S, LONGEST * self._limit), float("inf")
+        end, due = time.monotonic() + max(MIN_ANSWER_S, MAX_CALLS * self._limit), float("inf")
         self._send(question)
         while True:
             left = min(end, due) - time.monotonic()
             try:
-                message = self._heard.get(timeout=min(max(left, 0), AGAIN_S))
+                message = self._heard.get(timeout=min(max(left, 0), POLL_S))
             except queue.Empty:
                 if left > 0 and self._process.poll() is None:
                     continue
@@ -158,36 +104,34 @@ class Process:
                     begun.pop()
                 case None:
                     late = self._process.poll() is None and left <= 0
-                    self.close()
-                    at = begun[-1] if begun else None
-                    raise Died(at, calls[at or ""] - 1, late, self._where)
+                    trace, at = self.close(), begun[-1] if begun else None
+                    raise Died(at, calls[at or ""] - 1, late, trace)
             due = time.monotonic() + self._limit + SLACK_S if begun else float("inf")
 
-    def close(self) -> None:
-        """End it and all that it has started: it exits when its input is closed, unless it still runs something."""
+    def close(self) -> str:
+        """End it and all that it has started; return where it was.
+
+        It exits when its input is closed, unless it still runs something.
+        """
         with suppress(OSError):
             self._requests.close()
         with suppress(subprocess.TimeoutExpired):
-            self._process.wait(AGAIN_S)
+            self._process.wait(POLL_S)
         if os.name == "posix":
             with suppress(ProcessLookupError, PermissionError):
                 os.killpg(self._process.pid, signal.SIGKILL)
         self._process.kill()
         self._process.wait()
-        for _ in range(ROUNDS):
+        for _ in range(MAX_ROUNDS):
             if not (started := _marked(self._word)):
                 break
             for pid in started:
                 with suppress(ProcessLookupError, PermissionError):
                     os.kill(pid, signal.SIGKILL)
             time.sleep(0.01)
-        self._where = self._last_words()
-
-    def _last_words(self) -> str:
-        """Return where the process was when it ended, and delete the file."""
         try:
             with self._trace.open(encoding="utf-8", errors="replace") as file:
-                return file.read(LARGEST)
+                return file.read(MAX_MESSAGE_BYTES)
         except OSError:
             return ""
         finally:

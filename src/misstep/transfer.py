@@ -5,21 +5,21 @@ What a library defines goes by its name, what the student has defined by its con
 
 from __future__ import annotations
 
-import ast
 import dis
 import functools
 import io
 import linecache
 import marshal
 import pickle
+import re
 import sys
 from collections.abc import Callable, Iterator
 from importlib import import_module
 from types import CellType, CodeType, FunctionType, ModuleType
 from typing import Any
 
-from ..folder.workbook import Workbook, offered
-from ..rules import cell_content, is_ours
+from .rules import cell_content, is_ours
+from .workbook import Workbook, offered
 
 __all__ = ["received", "sent"]
 
@@ -75,13 +75,14 @@ class _Pickler(pickle.Pickler):
         return NotImplemented
 
     def _function(self, x: FunctionType) -> Any:
-        file = x.__code__.co_filename
-        self.sources[file] = linecache.getlines(file)
-        named = {"__name__", "__file__", x.__name__, *_globals(x.__code__)}
-        named = _with_those_below(named, "".join(self.sources[file]))
-        names = {name: x.__globals__[name] for name in sorted(named & x.__globals__.keys())}
+        file, space = x.__code__.co_filename, x.__globals__
+        lines = self.sources[file] = linecache.getlines(file)
+        words = {*re.findall(r"\w+", "".join(lines))}  # the file is compiled anew, with changes: it needs its modules
+        modules = {name for name in words & space.keys() if isinstance(space[name], ModuleType)}
+        named = {"__name__", "__file__", x.__name__, *modules, *_globals(x.__code__)}
+        names = {name: space[name] for name in sorted(named & space.keys())}
         state = names, x.__defaults__, x.__kwdefaults__, vars(x), x.__qualname__
-        made = _function, (marshal.dumps(x.__code__), id(x.__globals__), x.__name__, x.__closure__)
+        made = _function, (marshal.dumps(x.__code__), id(space), x.__name__, x.__closure__)
         return *made, state, None, None, _fill_function
 
 
@@ -100,25 +101,6 @@ def _globals(code: CodeType) -> Iterator[str]:
             yield from _globals(step.argval)
 
 
-def _with_those_below(names: set[str], source: str) -> set[str]:
-    """Return names and those that their values are made of in a file or cell: it is compiled anew with changes."""
-    try:
-        statements = [node for node in ast.parse(source).body if isinstance(node, ast.Assign | ast.AnnAssign)]
-    except (SyntaxError, ValueError):
-        return names
-    while True:
-        used = [{x.id for x in ast.walk(node) if isinstance(x, ast.Name)} for node in statements]
-        further = names.union(*(found for node, found in zip(statements, used) if names & _targets(node)))
-        if further == names:
-            return names
-        names = further
-
-
-def _targets(node: ast.Assign | ast.AnnAssign) -> set[str]:
-    targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-    return {x.id for target in targets for x in ast.walk(target) if isinstance(x, ast.Name)}
-
-
 # ---------------------------------------------------------------- called where it is received
 
 
@@ -126,9 +108,8 @@ def _mine(course: str, name: str, folder: str) -> Function:
     return offered(name, Workbook(import_module(course).COURSE, folder))
 
 
-def _cached(function: Function, parameters: dict[str, Any]) -> Function:
-    found: Function = functools.lru_cache(**parameters)(function)
-    return found
+def _cached(function: Function, parameters: dict[str, Any]) -> Any:
+    return functools.lru_cache(**parameters)(function)
 
 
 def _function(code: bytes, space: int, name: str, closure: tuple[CellType, ...] | None) -> FunctionType:

@@ -11,53 +11,25 @@ from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path, PurePath, PurePosixPath
 
-from ..course import Course
-from ..errors import CourseError
-from ..folder.workbook import LARGEST_FILE, content
-from ..text import Text
+from .course import Course
+from .errors import CourseError
+from .text import Text, say
+from .workbook import MAX_FILE_BYTES, content
 
 __all__ = ["Submission", "submissions"]
 
-DEEPEST = 5
-"""Folders in folders that are looked through."""
-
-MOST_FOLDERS = 1000
-MOST_MEMBERS = 100_000
-LARGEST_ARCHIVE = 200 * LARGEST_FILE
-"""Bytes of a zip in a zip, and of all that is unpacked of one."""
-
+MAX_DEPTH = 5  # of folders in folders that are looked through
+MAX_FOLDERS = 1000
+MAX_MEMBERS = 100_000
+MAX_ARCHIVE_BYTES = 200 * MAX_FILE_BYTES  # of a zip in a zip, and of all that is unpacked of one
 OTHERS = ("__MACOSX", "__pycache__", "site-packages", "node_modules")
 
-SAY = {
-    "taken": Text("{file} was taken for {name}.", "把 {file} 当作 {name} 评判。"),
-    "left": Text("{name} was judged, and not also {files}.", "评判了 {name}，没有评判 {files}。"),
-    "several": Text(
-        "There are several for {name}, and none was judged: {files}. Keep one.",
-        "{name} 有好几份，都没有评判：{files}。请只留一份。",
-    ),
-    "nothing": Text("No exercises were found here. Here are: {files}.", "此处没有找到练习。这里有：{files}。"),
-    "missing": Text("Not there: {files}.", "缺少：{files}。"),
-    "zip": Text("{file} cannot be unpacked: {error}", "无法解压 {file}：{error}"),
-    "skipped": Text("Of {file} this was not unpacked: {files}.", "{file} 中没有解压：{files}。"),
-    "empty": Text("nothing", "空"),
-}
+SEVERAL = Text("None of several for {name} was judged: {files}.", "{name} 有好几份，都没有评判：{files}。")
 
 
 @dataclass(frozen=True)
 class Submission:
-    """What a student has handed in.
-
-    Attributes
-    ----------
-    student : str
-        The name of the folder or of the zip.
-    folder : Path
-        With most of the files.
-    files : dict
-        From a section to its file.
-    remarks : tuple of Text
-        What an instructor should look at.
-    """
+    """What a student has handed in: the folder with most of the files, the file of each section, and remarks."""
 
     student: str
     folder: Path
@@ -68,66 +40,52 @@ class Submission:
 def submissions(
     course: Course, given: Sequence[str | PathLike[str]], room: Path, sections: Sequence[str]
 ) -> list[Submission]:
-    """Return what each student has handed in.
-
-    Parameters
-    ----------
-    course : Course
-    given : sequence of str or path
-        Folders or zips: each of a student, or with those of students in it.
-    room : Path
-        An empty folder, for what is unpacked.
-    sections : sequence of str
-        Those that are graded.
-
-    Raises
-    ------
-    CourseError
-        If one is neither a folder nor a zip.
-    """
-    unpacking = _Unpacking(course, room)
+    """Return what each student has handed in, in folders and zips; what is unpacked goes to an empty folder."""
+    tree = _Tree(course, room)
     found: list[Submission] = []
     for path in map(Path, given):
         if not path.is_dir() and not (_is_zip(path) and path.is_file()):
             raise CourseError(f"{path}: expected the folder of a student, a folder of such folders, or a zip of either")
         place = path.resolve()
-        inside = _places_of_students(place, unpacking, several=len(given) > 1)
-        of_all = tuple(unpacking.remarks.get(place, ())) if inside != [place] else ()
-        found += [replace(x, remarks=of_all + x.remarks) for x in (_submission(y, unpacking, sections) for y in inside)]
+        inside = tree.places_of_students(place, several=len(given) > 1)
+        of_all = tuple(tree.remarks.get(place, ())) if inside != [place] else ()
+        each = (_submission(one, tree, sections) for one in inside)
+        found += [replace(one, remarks=of_all + one.remarks) for one in each]
     return found
 
 
-class _Unpacking:
-    """The zips that were unpacked: where to, and what is to be said of them; and which files hold answers."""
+class _Tree:
+    """Folders and zips in each other: a zip is unpacked when it is first looked into."""
 
     def __init__(self, course: Course, room: Path) -> None:
         self.course, self._room = course, room
         self._patterns = {section: _pattern(file) for file, section in course.files.items()}
-        self._known: dict[Path, Path] = {}
+        self._unpacked: dict[Path, Path] = {}
         self.remarks: dict[Path, list[Text]] = {}
 
     def folder(self, place: Path) -> Path:
         """Return a folder itself, and for a zip the folder with its content, empty where it cannot be read."""
         if place.is_dir():
             return place
-        if place not in self._known:
-            self._known[place] = Path(tempfile.mkdtemp(dir=self._room))
+        if place not in self._unpacked:
+            self._unpacked[place] = Path(tempfile.mkdtemp(dir=self._room))
             self.remarks[place] = []
             try:
-                self._unpack(place, self._known[place])
+                self._unpack(place, self._unpacked[place])
             except Exception as error:  # it is no zip, or its list of members is damaged
-                self.remarks[place].append(SAY["zip"].fill(file=place.name, error=error))
-        return self._known[place]
+                text = "{file} cannot be unpacked: {error}", "无法解压 {file}：{error}"
+                self.remarks[place].append(say(*text, file=place.name, error=error))
+        return self._unpacked[place]
 
     def _unpack(self, archive: Path, target: Path) -> None:
         """Write the members that are small and stay in the folder."""
-        skipped, left = list[str](), LARGEST_ARCHIVE
+        skipped, left = list[str](), MAX_ARCHIVE_BYTES
         with zipfile.ZipFile(archive) as packed:
-            for member in packed.infolist()[:MOST_MEMBERS]:
+            for member in packed.infolist()[:MAX_MEMBERS]:
                 name = PurePosixPath(member.filename.replace("\\", "/"))
                 if member.is_dir() or _is_hidden(name.parts[:-1]):
                     continue
-                largest = min(left, LARGEST_ARCHIVE if _is_zip(name) else LARGEST_FILE)
+                largest = min(left, MAX_ARCHIVE_BYTES if _is_zip(name) else MAX_FILE_BYTES)
                 try:
                     data = _member(packed, member, name, largest)
                     (target / name).parent.mkdir(parents=True, exist_ok=True)
@@ -136,18 +94,17 @@ class _Unpacking:
                 except Exception:  # damaged, encrypted, too large, or elsewhere
                     skipped += [member.filename] if name.suffix in (".py", ".zip") else []
         if skipped:
-            self.remarks[archive].append(SAY["skipped"].fill(file=archive.name, files=_listed(skipped)))
+            text = "Of {file} this was not unpacked: {files}.", "{file} 中没有解压：{files}。"
+            self.remarks[archive].append(say(*text, file=archive.name, files=_listed(skipped)))
 
     def below(self, place: Path) -> Iterator[tuple[int, Path, list[Text]]]:
         """Yield a place and all folders below it, zips unpacked: depth, folder, remarks; the nearest first."""
         waiting = [(0, place)]
-        for _ in range(MOST_FOLDERS):
-            if not waiting:
-                return
-            depth, place = waiting.pop(0)
+        for depth, place in waiting:
             folder = self.folder(place)
             yield depth, folder, self.remarks.get(place, [])
-            waiting += [(depth + 1, inside) for inside in self.places(folder) if depth < DEEPEST]
+            if depth < MAX_DEPTH:
+                waiting += [(depth + 1, inside) for inside in self.places(folder)][: MAX_FOLDERS - len(waiting)]
 
     def answers(self, folder: Path) -> list[tuple[str, Path]]:
         """Return the files with answers in a folder, and their sections."""
@@ -159,63 +116,59 @@ class _Unpacking:
         inside = [x for x in _entries(folder) if not _is_hidden((x.name,)) and not x.is_symlink()]
         return [x for x in inside if x.is_dir() or (_is_zip(x) and x.is_file())]
 
+    def places_of_students(self, place: Path, *, several: bool) -> list[Path]:
+        """Return the folders and zips of students in a place: itself, those in it, or those in the only one in it."""
+        folder = self.folder(place)
+        if self.answers(folder):
+            return [place]
+        inside = self.places(folder)
+        leads = any(self.answers(found) for one in inside for _, found, _ in self.below(one))
+        if len(inside) == 1 and leads and not self.answers(self.folder(inside[0])):
+            further = self.places_of_students(inside[0], several=several)
+            return further if len(further) > 1 else [place if several else inside[0]]
+        return inside if leads and not (several and len(inside) == 1) else [place]
+
 
 def _pattern(file: str) -> re.Pattern[str]:
-    """Return a pattern for the names of a section's file.
-
-    A second download is ``ex_49_7 (1).py``, and a platform puts the student's name before.
-    """
+    """Return a pattern for the names of a section's file: ``ex_49_7 (1).py``, or with the student's name before."""
     name = file.removesuffix(".py").replace("_", "[ _.-]?")
     return re.compile(rf"(?:.*[^0-9a-z])?{name}(?:[^0-9a-z].*)?\.py(?:\.txt)?")
 
 
-def _places_of_students(place: Path, unpacking: _Unpacking, *, several: bool) -> list[Path]:
-    """Return the folders and zips of students in a place: itself, those in it, or those in the only folder in it."""
-    folder = unpacking.folder(place)
-    if unpacking.answers(folder):
-        return [place]
-    inside = unpacking.places(folder)
-    leading = [x for x in inside if _leads_to_answers(x, unpacking)]
-    if len(inside) == 1 and leading and not unpacking.answers(unpacking.folder(inside[0])):
-        further = _places_of_students(inside[0], unpacking, several=several)
-        return further if len(further) > 1 else [place if several else inside[0]]
-    return inside if leading and not (several and len(inside) == 1) else [place]
-
-
-def _leads_to_answers(place: Path, unpacking: _Unpacking) -> bool:
-    return any(unpacking.answers(folder) for _, folder, _ in unpacking.below(place))
-
-
-def _submission(place: Path, unpacking: _Unpacking, sections: Sequence[str]) -> Submission:
+def _submission(place: Path, tree: _Tree, sections: Sequence[str]) -> Submission:
     """Choose a file for each section: the nearest with the right name, else the only one with a similar name."""
     found: dict[str, list[tuple[bool, int, Path]]] = {}
     others: list[str] = []
     remarks: list[Text] = []
-    for depth, folder, said in unpacking.below(place):
-        remarks += said
-        answers = unpacking.answers(folder)
+    for depth, folder, remarked in tree.below(place):
+        remarks += remarked
+        answers = tree.answers(folder)
         for section, path in answers:
-            found.setdefault(section, []).append((path.name != unpacking.course.file_name(section), depth, path))
+            found.setdefault(section, []).append((path.name != tree.course.file_name(section), depth, path))
         others += [path.name for path in _entries(folder) if path not in [x for _, x in answers] and path.is_file()]
     files: dict[str, Path] = {}
     for section, ways in found.items():
-        name, best = unpacking.course.file_name(section), min(ways)[:2]
+        name, best = tree.course.file_name(section), min(ways)[:2]
         first, *rest = [path for *rank, path in ways if tuple(rank) == best]
         further = [path.name for *_, path in ways if path != first]
         if any(_content(path) != _content(first) for path in rest):
-            remarks.append(SAY["several"].fill(name=name, files=_listed([first.name, *further])))
+            remarks.append(SEVERAL.fill(name=name, files=_listed([first.name, *further])))
             continue
         files[section] = first
         if first.name != name:
-            remarks.append(SAY["taken"].fill(file=first.name, name=name))
+            remarks.append(
+                say("{file} was taken for {name}.", "把 {file} 当作 {name} 评判。", file=first.name, name=name)
+            )
         elif further:
-            remarks.append(SAY["left"].fill(name=first.name, files=_listed(further)))
-    missing = [unpacking.course.file_name(section) for section in sections if section not in found]
+            text = "{name} was judged, and not also {files}.", "评判了 {name}，没有评判 {files}。"
+            remarks.append(say(*text, name=first.name, files=_listed(further)))
+    missing = [tree.course.file_name(section) for section in sections if section not in found]
     if not found:
-        remarks.append(SAY["nothing"].fill(files=_listed(others) if others else SAY["empty"]))
+        text = "No exercises were found here. Here are: {files}.", "此处没有找到练习。这里有：{files}。"
+        remarks.append(say(*text, files=_listed(others) if others else Text("nothing", "空")))
     elif missing:
-        remarks.append(SAY["missing"].fill(files=_listed(missing)))
-    folders = [path.parent for path in files.values()] or [unpacking.folder(place)]
+        remarks.append(say("Not there: {files}.", "缺少：{files}。", files=_listed(missing)))
+    folders = [path.parent for path in files.values()] or [tree.folder(place)]
     most = max(dict.fromkeys(folders), key=folders.count)
     student = os.fsencode(place.stem if _is_zip(place) else place.name).decode("utf-8", "backslashreplace")
     return Submission(student, most, files, tuple(remarks))
@@ -237,13 +190,7 @@ def _content(path: Path) -> bytes | str:
 
 
 def _member(packed: zipfile.ZipFile, member: zipfile.ZipInfo, name: PurePosixPath, largest: int) -> bytes:
-    """Return the content of a member of a zip.
-
-    Raises
-    ------
-    ValueError
-        If it would be written elsewhere, or is too large, whatever the zip says of its size.
-    """
+    """Return the content of a member of a zip; not where it would be written elsewhere, or is too large."""
     if name.is_absolute() or ".." in name.parts or ":" in str(name):
         raise ValueError(f"{name}: expected a name in the folder")
     with packed.open(member) as source:
