@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from math import prod
+from operator import is_
 from types import SimpleNamespace
 from typing import Any
 
@@ -288,8 +289,11 @@ class Program:
             worst = alarm.item(alarm.argmax()) if type(alarm) is np.ndarray else alarm
         except ValueError:  # the shapes do not fit, or there are no states
             return None
-        if not worst <= 1:
-            return None
+        if not worst <= 1:  # an entry that is not beside the last one is an alarm, too
+            pieces = [np.asarray(x, order="C") for x in args]
+            if all(map(is_, pieces, args)):
+                return None
+            return self.results(pieces) if out is None else self._of_arrays(pieces, out)
         return found[0] if self.single else found[:-1]
 
     def _filled(self, args: Sequence[Any], out: Mapping[str, Array]) -> Any:
