@@ -148,7 +148,7 @@ def test_without_pinocchio_and_mpmath_the_commands_say_how_to_get_them(monkeypat
 
 @pytest.mark.parametrize("there", [True, False])
 def test_starting_the_exercises_says_where_pytest_is_missing(there, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: there or None)
+    monkeypatch.setattr("misstep.commands.find_spec", lambda name: there or None)
     assert main(["exercises", "start", str(tmp_path / "mine")]) == 0
     printed = capsys.readouterr().out
     assert "&& python -m pytest" in printed
