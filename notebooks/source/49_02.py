@@ -91,7 +91,7 @@ assert np.allclose(tw.motion_transform(R, p) @ body, spatial)
 
 
 # %% [markdown] lang="en"
-# **Exercise 49.2.1.** Only the base turns, about its own z axis. Which body twist has the foot, and why does it have a linear velocity?
+# **Exercise 49.2.1.** Only the base turns, about its own z axis. What is the body twist of the foot, and why does it have a linear velocity?
 # %% [markdown] lang="zh"
 # **练习 49.2.1。** 只有基座绕自身 z 轴转动。脚的 body twist 是什么?脚为什么有线速度?
 # %%

@@ -337,21 +337,19 @@ tw.exercises.check("49.7.2", forward_dynamics_two_ways)
 # ## Free fall
 #
 # A robot is let go in the air, its motors off. The chapter expects that the linear part of the base's acceleration is about
-# (0, 0, −9.81). Do you agree? First a guess about the joints.
+# (0, 0, −9.81). Do you agree?
 # %% [markdown] lang="zh"
 # ## 自由落体
 #
-# 机器人在空中被松手,电机全部断电。本章认为基座加速度的线性部分约为 (0, 0, −9.81)。你同意吗?先猜一猜关节会怎样。
+# 机器人在空中被松手,电机全部断电。本章认为基座加速度的线性部分约为 (0, 0, −9.81)。你同意吗?
+# %%
+tw.ask("49.7-knees", ...)
 # %% [markdown] lang="en"
 # **Exercise 49.7.1.** Let the base have any tilt. What does `aba` return, and what do you expect without any algorithm? Return both. What
 # follows is folded: open it when you have also done the second part, the robot in motion, in your folder.
 # %% [markdown] lang="zh"
 # **练习 49.7.1。** 基座可以任意倾斜。`aba` 返回什么?不用任何算法,你预期什么?两个都返回。后面的内容是折叠的,等你在文件夹里做完第二部分
 # (运动中的机器人)再打开。
-# %%
-tw.ask("49.7-knees", ...)
-
-
 # %%
 def fall_from_rest(model, q):
     """Return the acceleration of a robot at rest without torques, by ABA and as you expect it."""

@@ -193,7 +193,8 @@ class Decision(NamedTuple):
             ["→" if advice == self.best else "", advice.function, self._error(advice), in_words(advice.seconds)]
             for advice in self.tried
         ]
-        found = [] if self.best else [f"nothing here keeps {_shown(self.within, self.unit)}: {self.instead}"]
+        limit = [f"at most {_shown(self.within, self.unit)}; > where there is more"]
+        found = limit if self.best else [f"nothing here keeps {_shown(self.within, self.unit)}: {self.instead}"]
         return "\n".join([*found, text_table(["", "function", "error", "time"], rows), self.sure])
 
     def _error(self, advice: Advice) -> str:
@@ -422,7 +423,7 @@ def advise(
     fewest = min(advice.checked for advice in tried)
     share = 0.05 ** (1 / CHECKED_STATES)
     sure = f"the largest error in {CHECKED_STATES} random states: with 95 % confidence, {share:.1%} of all have less"
-    sure += f"; of {EXACT_STATES} states where 60 digits are needed" if fewest == EXACT_STATES else ""
+    sure += f"; of double-double in {EXACT_STATES}" if fewest == EXACT_STATES else ""
     sure = "the largest bound in 200 random states; each call returns its own, which is proved" if certified else sure
     instead = "" if any(advice.error <= most for advice in tried) else _instead(use, unit)
     return Decision(most, unit, tuple(tried), sure, instead)
@@ -461,6 +462,8 @@ def read_tolerance(within: str | float, unit: str) -> tuple[float, str]:
     spelt = re.sub(r"[\s·*]", "", match[2]).lower().replace("µ", "u").replace("μ", "u")
     named, factor = UNITS.get(spelt, ("", 1.0)) if spelt else (plain, 1.0)
     most = float(match[1]) * factor
+    if named == "mm" != plain:
+        raise ValueError(f"within: millimetres are of a motion, with duration= (--for), got {within!r}")
     if named not in (plain, DIGITS) or not 0 < most < np.inf:
         raise ValueError(expected)
     return (10.0**-most, DIGITS) if named == DIGITS else (most, unit)
@@ -605,6 +608,14 @@ def add_advise(commands: Any) -> None:
     parser.set_defaults(run=run_advise)
 
 
+def _seconds(text: str) -> float:
+    """Return the seconds of "60s", or of "60"."""
+    try:
+        return float(text.strip().removesuffix("s"))
+    except ValueError:
+        raise ValueError(f"--for: expected seconds, as in 60s, got {text!r}") from None
+
+
 def run_advise(args: argparse.Namespace) -> int:
     """Print the row of a use, or of all; or the decision for an error that is allowed."""
     if args.use is not None:
@@ -615,10 +626,10 @@ def run_advise(args: argparse.Namespace) -> int:
             print(f"{USES[use].what}:\n  {advise(model, use)}", flush=True)
         return 0
     try:
-        duration = None if args.duration is None else float(args.duration.removesuffix("s"))
+        duration = None if args.duration is None else _seconds(args.duration)
         use = args.use or ("simulation" if duration is not None else "control")
         found = advise(model, use, within=args.within, duration=duration, certified=args.certified, progress=True)
     except ValueError as error:
         raise tw.ModelError(str(error)) from None
-    print(f"{USES[use].what}:\n{found}")
+    print(f"{USES[use].what if duration is None else f'a motion of {duration:g} s'}:\n{found}")
     return 0 if isinstance(found, Decision) and found.best else 1

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from .arrays import Array, as_number
 from .model import Model
-from .simulation import METHODS, DivergenceError
+from .simulation import METHODS, DivergenceError, simulate
 from .simulation.growth import motion_error
 
 __all__ = ["Plan", "Steps", "cheapest_steps"]
@@ -21,8 +21,14 @@ STARTS = 64
 SAFETY = 1.5
 """On the estimated error."""
 
-FIRST_DT = 0.01
-"""The step that is tried first, s."""
+FIRST_DT, MAX_DT = 0.01, 0.1
+"""The step that is tried first, and the longest, s."""
+
+AIM = 0.7
+"""The share of the error that is allowed for which a step is predicted."""
+
+WORTH_TRYING, MAX_CHANGE = 1.2, 16.0
+"""By how much a step must differ from one that does, to be tried; and by how much it may change at once."""
 
 MAX_STEPS = 200_000
 """No method is tried with more."""
@@ -114,26 +120,45 @@ def _longest_step(
     """Return the longest step of a method that keeps the error; the last one tried if that takes more than most."""
     order = METHODS[method].order
     count = int(np.ceil(duration / FIRST_DT))
-    best = Steps(method, duration / count, np.inf, np.inf, count)
+    kept: Steps | None = None
+    tried = Steps(method, duration / count, np.inf, np.inf, count)
     for _ in range(MAX_TRIES):
-        if count > most and np.isfinite(best.error):
+        if count > most and np.isfinite(tried.error):
             break
         dt = duration / count
         if progress:
             print(f"{method}, dt = {dt:.3g} s ...", flush=True)
-        begin = time.process_time()
         try:
             found = motion_error(model, q, v, dt=dt, duration=duration, method=method)
         except DivergenceError:
+            if kept:
+                break
             count *= 4
             continue
-        seconds = (time.process_time() - begin) / 4  # of four times the steps
-        best = Steps(method, dt, float(SAFETY * found.total.max()), seconds / max(1, len(np.atleast_2d(q))), count)
-        if best.error <= within or SAFETY * found.rounding.max() > within:
+        error = float(SAFETY * found.total.max())
+        tried = Steps(method, dt, error, np.nan, count)
+        if error <= within:
+            kept = tried
+        elif kept or SAFETY * found.rounding.max() > within:
             break
-        more = (best.error / within) ** (1 / order)
-        count = int(np.ceil(count * np.clip(1.1 * more, 1.2, 16)))
-    return best
+        change = (error / (AIM * within)) ** (1 / order)
+        fewer = max(int(np.ceil(count * max(change, 1 / MAX_CHANGE))), int(np.ceil(duration / MAX_DT)))
+        if kept and fewer > count / WORTH_TRYING:
+            break
+        count = fewer if kept else int(np.ceil(count * np.clip(change, WORTH_TRYING, MAX_CHANGE)))
+    best = kept or tried
+    return best._replace(seconds=_seconds(model, best, duration, q, v))
+
+
+def _seconds(model: Model, way: Steps, duration: float, q: Array, v: Array) -> float:
+    """Return the processor time of one motion, the first."""
+    first = (0,) * (q.ndim - 1)
+    begin = time.process_time()
+    try:
+        simulate(model, q[first], v[first], dt=way.dt, duration=duration, method=way.method)
+    except DivergenceError:
+        return np.inf
+    return time.process_time() - begin
 
 
 def _horizon(model: Model, within: float, duration: float, q: Array, v: Array) -> str:

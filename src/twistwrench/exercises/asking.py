@@ -39,7 +39,8 @@ SAY = {
     "no unit": Text("without a unit", "没有单位"),
     "in unit": Text("in {unit}", "单位 {unit}"),
     "right": Text("Right: {truth}.", "对：{truth}。"),
-    "wrong": Text("Your guess: {guess}. It is {truth}.", "你猜的是 {guess}，实际是 {truth}。"),
+    "guessed": Text("Your guess: {guess}.", "你猜的是 {guess}。"),
+    "is": Text("It is {truth}.", "实际是 {truth}。"),
     "times": Text("You are a factor of {times} off.", "差了 {times} 倍。"),
     "sign": Text("Its sign is the other one.", "符号相反。"),
     "zero": Text("It is exactly zero.", "恰好是零。"),
@@ -182,8 +183,9 @@ class Asked:
     def _verdict(self) -> str:
         if self.right:
             return self._say("right", truth=self._shown(self.truth))
-        head = self._say("wrong", guess=self._shown(self.guess), truth=self._shown(self.truth))
-        return f"{head}{'' if self.language == 'zh' else ' '}{self._remark()}"
+        guessed = self._say("guessed", guess=self._shown(self.guess))
+        truth = self._say("is", truth=self._shown(self.truth))
+        return ("" if self.language == "zh" else " ").join([guessed, self._remark(), truth])
 
     @property
     def _how(self) -> str:
