@@ -344,6 +344,8 @@ tw.exercises.check("49.7.2", forward_dynamics_two_ways)
 # 机器人在空中被松手,电机全部断电。本章认为基座加速度的线性部分约为 (0, 0, −9.81)。你同意吗?
 # %%
 tw.ask("49.7-knees", ...)
+
+
 # %% [markdown] lang="en"
 # **Exercise 49.7.1.** Let the base have any tilt. What does `aba` return, and what do you expect without any algorithm? Return both. What
 # follows is folded: open it when you have also done the second part, the robot in motion, in your folder.
