@@ -121,6 +121,7 @@ def _longest_step(
     order = METHODS[method].order
     count = int(np.ceil(duration / FIRST_DT))
     kept: Steps | None = None
+    too_few = 0  # steps that did not keep the error, or could not
     tried = Steps(method, duration / count, np.inf, np.inf, count)
     for _ in range(MAX_TRIES):
         if count > most and np.isfinite(tried.error):
@@ -131,21 +132,25 @@ def _longest_step(
         try:
             found = motion_error(model, q, v, dt=dt, duration=duration, method=method)
         except DivergenceError:
-            if kept:
-                break
-            count *= 4
+            too_few = count
+            count = int(np.sqrt(count * kept.steps)) if kept else 4 * count
             continue
         error = float(SAFETY * found.total.max())
         tried = Steps(method, dt, error, np.nan, count)
         if error <= within:
             kept = tried
-        elif kept or SAFETY * found.rounding.max() > within:
+        elif SAFETY * found.rounding.max() > within:
             break
+        else:
+            too_few = count
         change = (error / (AIM * within)) ** (1 / order)
-        fewer = max(int(np.ceil(count * max(change, 1 / MAX_CHANGE))), int(np.ceil(duration / MAX_DT)))
-        if kept and fewer > count / WORTH_TRYING:
-            break
-        count = fewer if kept else int(np.ceil(count * np.clip(change, WORTH_TRYING, MAX_CHANGE)))
+        if kept:
+            fewest = max(too_few, int(duration / MAX_DT))
+            count = max(int(np.ceil(count * change)), int(np.ceil(np.sqrt(fewest * kept.steps))))
+            if count * WORTH_TRYING > kept.steps:
+                break
+        else:
+            count = int(np.ceil(count * np.clip(change, WORTH_TRYING, MAX_CHANGE)))
     best = kept or tried
     return best._replace(seconds=_seconds(model, best, duration, q, v))
 
@@ -153,8 +158,9 @@ def _longest_step(
 def _seconds(model: Model, way: Steps, duration: float, q: Array, v: Array) -> float:
     """Return the processor time of one motion, the first."""
     first = (0,) * (q.ndim - 1)
-    begin = time.process_time()
     try:
+        simulate(model, q[first], v[first], dt=way.dt, steps=1, method=way.method)  # its programs are made
+        begin = time.process_time()
         simulate(model, q[first], v[first], dt=way.dt, duration=duration, method=way.method)
     except DivergenceError:
         return np.inf
