@@ -198,6 +198,34 @@ def test_redundant_contacts_of_a_compiled_scene_are_the_least_squares():
         tw.compile(scene, "dlambda_dq", backend="numpy")(q, rest, rest)
 
 
+@pytest.mark.parametrize("number", ["double-double", "mpmath"])
+@pytest.mark.parametrize("want", ["qdd", "lambda", "impulse"])
+def test_of_many_forces_no_program_chooses_one_in_more_digits(want, number):
+    """The wrist of an arm is straight: of its six rows five are independent, and a pivot is what rounding makes of 0."""
+    arm = tw.load("ur5")
+    scene = tw.Scene(arm, contacts=[tw.SurfaceContact("tool0", (0.1, 0.1), 0.6)])
+    program = tw.compile(scene, want, dtype=number)
+    x = np.linspace(-1.0, 1.0, 6)
+    straight = [np.where(np.arange(6) == 4, np.pi, x), x, x][: 2 if want == "impulse" else 3]
+    with pytest.raises(tw.SingularError, match="6 directions of which 5 are independent"):
+        program(*straight)
+    bent = [np.where(np.arange(6) == 4, 1.0, x), *straight[1:]]
+    assert np.isfinite(np.asarray(program(*bent), float)).all()
+
+
+def test_rows_that_depend_on_each_other_in_every_state_have_no_bound_and_no_more_digits():
+    scene = tw.Scene(GO2, contacts=[tw.PointContact("FL_foot", 0.6), tw.PointContact("FL_calf", 0.6)])  # of one body
+    state = GO2.standing(), np.zeros(18), np.ones(18)
+    assert np.isfinite(tw.compile(scene, "lambda")(*state)).all()
+    for how in ({"dtype": "double-double"}, {"dtype": "mpmath"}, {"bound": True}, {"bound": "running"}):
+        with pytest.raises(tw.SingularError, match="a pivot is zero in every state"):
+            tw.compile(scene, "lambda", **how)(*state)
+    arm = tw.load("planar_arm")
+    flat = tw.Scene(arm, contacts=[tw.PointContact("tool", 0.6)])
+    with pytest.raises(tw.SingularError, match="row 1 of J"):
+        tw.compile(flat, "qdd")(np.ones(3), np.ones(3), np.ones(3))
+
+
 @pytest.mark.parametrize("name", sampled(["a leg", "Go2 on four feet", "a tree in a loop"], 1))
 def test_derivatives_are_those_of_complex_steps(name):
     model, q, v, tau, contacts = state(name)

@@ -44,6 +44,14 @@ def exactly(x):
         return sum(ne.as_mpmath(part) for part in parts)
 
 
+@pytest.mark.parametrize("number", WIDE)
+def test_an_energy_of_one_state_is_a_number(number):
+    program = compile(tw.load("pendulum"), ("kinetic_energy", "potential_energy"), dtype=number)
+    found = program([0.3], [0.2])
+    assert float(found.T) == pytest.approx(1.001 * 0.2**2 / 2, rel=1e-14)
+    assert float(found.U) == pytest.approx(-9.81 * np.cos(0.3), rel=1e-14)
+
+
 @pytest.mark.one_case
 @pytest.mark.parametrize("number", WIDE)
 @pytest.mark.parametrize("name", sampled(TRUTH, 2))

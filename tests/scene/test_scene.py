@@ -529,6 +529,10 @@ def test_one_place_of_a_body_under_two_names_is_one_place():
     assert frames["left_sole"].body == frames["left_sole_joint"].body
     with pytest.raises(tw.ModelError, match="the same contact twice"):
         tw.Scene("humanoid", contacts=[tw.PointContact("left_sole", 0.7), tw.PointContact("left_sole_joint", 0.7)])
+    used = [tw.PointContact(name, 0.7) for name in ("left_sole", "left_sole_joint")]  # which remember their rows
+    assert [one.directions.shape for one in used] == [(3, 6), (3, 6)]
+    with pytest.raises(tw.ModelError, match="the same contact twice"):
+        tw.Scene("humanoid", contacts=used)
 
 
 def test_a_robot_that_is_none_or_has_no_such_base_is_refused():

@@ -18,6 +18,7 @@ from ..algorithms.crba import composite_rigid_body
 from ..algorithms.delassus import delassus
 from ..algorithms.factorization import factorize, inboard_dofs, solve_inward, solve_outward
 from ..arrays import Array
+from ..errors import SingularError
 from ..fast.watch import pivots
 from ..model import Model, Tree
 
@@ -45,7 +46,13 @@ class Elimination(NamedTuple):
         inboard = inboard_dofs(tree)
         L, D = factorize(composite_rigid_body(tree).M, inboard)
         mobility = delassus(L, D, inboard, J)
-        row_L, row_D = factorize(mobility, every_row(J))
+        try:
+            row_L, row_D = factorize(mobility, every_row(J))
+        except ZeroDivisionError as error:  # fractions raise where floats are infinite
+            raise SingularError(
+                f"row {error} of J depends on the rows after it in every configuration: of many forces that have the "
+                "same effect no program finds one; contact_forward_dynamics and impact find the least"
+            ) from None
         return cls(tree, L, 1 / D, inboard, solve_inward(L, inboard, J.mT), mobility, row_L, 1 / row_D)
 
     def hold(self, a: Array) -> tuple[Array, Array]:

@@ -109,7 +109,10 @@ class Equations:
 
             return compute
 
-        return Quantity(symbol, self.arguments, compute, derivative)
+        def unique(q: Array, *others: Array) -> None:
+            self._independent_rows(q, np.zeros((*q.shape[:-1], self.model.nv)))
+
+        return Quantity(symbol, self.arguments, compute, derivative, unique)
 
     def _changed(self, of: str, *x: Array) -> tuple[Array, Array]:
         """Return the derivatives of x and λ by an argument, shapes (..., nv, nv) and (..., m, nv)."""
@@ -141,7 +144,7 @@ class Equations:
         if (rank < J.shape[-2]).any():
             raise SingularError(
                 f"the contacts hold {J.shape[-2]} directions of which {int(rank.min())} are independent: "
-                "many forces have the same effect, and the one that is chosen has no derivative"
+                "many forces have the same effect, and the least of them has no derivative, nor more digits than a double"
             )
         return J
 

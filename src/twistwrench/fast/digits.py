@@ -15,12 +15,13 @@ import numpy as np
 
 from straightline.backend import BackEnd
 from straightline.double_double import BOUND, LO, OWN, DoubleDouble, double_double
+from straightline.line import Line
 from straightline.llvm import NATIVE
 from straightline.pairs import two_sum
 from straightline.running import with_running_bound
 
 from ..arrays import Array
-from ..errors import ShapeError
+from ..errors import ShapeError, SingularError
 from ..newton_euler_3d import as_mpmath
 from .program import Program
 from .quantity import by_the_textbook, shapes
@@ -88,6 +89,16 @@ class DigitsProgram(ABC):
         """Return one of them as the caller gets it, with its bound if there is one."""
         return found[symbol]
 
+    def _line(self, names: tuple[str, ...]) -> Line:
+        """Return the program's line for states with these arguments; raise SingularError if it divides by zero."""
+        line = self.program._code(names).line
+        if any(node[0] == "div" and line.nodes[node[2]] == ("const", 0) for node in line.nodes):
+            raise SingularError(
+                f"{', '.join(self._symbols)} of {self.model.name!r}: a pivot is zero in every state, as that of rows of "
+                "J that depend on each other; what the textbook chooses there has no more digits than a double"
+            )
+        return line
+
     def _check(self, states: Mapping[str, Array], found: Mapping[str, Array]) -> None:
         """Let the textbook look at the states that raise the alarm: it raises what there is to raise."""
         unsure = ~(found[ALARM] <= 1)
@@ -95,7 +106,11 @@ class DigitsProgram(ABC):
             looked_at = {symbol: np.empty(found[symbol].shape) for symbol in self._symbols}
             asked = {**self.program.given, **states}
             by_the_textbook(self.model, self.program.quantities, asked, looked_at, unsure)
-        if not all((abs(found[symbol]) < np.inf).all() for symbol in self._symbols):
+            for quantity in self.program.quantities:
+                if quantity.unique:
+                    given = [name for name in quantity.arguments if name in asked]
+                    quantity.unique(*(asked[name][unsure] if name in states else asked[name] for name in given))
+        if not all(np.all(abs(found[symbol]) < np.inf) for symbol in self._symbols):
             raise ValueError(f"expected {self.expected}")
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -134,7 +149,7 @@ class WideProgram(DigitsProgram):
         """Return the results of the line; its constants have as many digits as mpmath now has."""
         key = tuple(states), import_module("mpmath").mp.prec if self.dtype.hasobject else None
         if key not in self._codes:
-            self._codes[key] = BackEnd(self.program._code(tuple(states)).line, self.dtype, "numpy")
+            self._codes[key] = BackEnd(self._line(tuple(states)), self.dtype, "numpy")
         filled = {name: self._wide(np.broadcast_to(own.get(name, x), x.shape)) for name, x in states.items()}
         return self._codes[key].results(filled, self.program.batch(states), self.program.threads, {})
 
@@ -168,7 +183,7 @@ class DoubleDoubleProgram(DigitsProgram):
     def _code(self, names: tuple[str, ...], low: tuple[str, ...]) -> BackEnd:
         """Return what runs the line for states with these arguments, of which some are pairs; rewritten once."""
         if (names, low) not in self._codes:
-            line, backend = self.program._code(names).line, self.program.backend
+            line, backend = self._line(names), self.program.backend
             pairs = double_double(line, low=low, plain=(ALARM,), fma=backend == "llvm", bound=bool(self.bound))
             self._codes[names, low] = BackEnd(pairs, DOUBLE, backend)
         return self._codes[names, low]
@@ -266,7 +281,7 @@ class RunningProgram(DigitsProgram):
     def _code(self, names: tuple[str, ...]) -> BackEnd:
         """Return what runs the line with its bounds for states with these arguments; rewritten once."""
         if names not in self._codes:
-            line, backend = self.program._code(names).line, self.program.backend
+            line, backend = self._line(names), self.program.backend
             running = with_running_bound(line, self.dtype, alarm=ALARM, fma=backend == "llvm")
             self._codes[names] = BackEnd(running, self.dtype, backend)
         return self._codes[names]

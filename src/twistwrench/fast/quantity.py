@@ -38,12 +38,14 @@ class Quantity(NamedTuple):
 
     `compute` returns an array, by the textbook's function, and what is to be watched besides: see `watch`.
     `derivative` returns what does so for the derivative by an argument, where there is a better way than by the line.
+    `unique` raises SingularError in states where the textbook chooses one of many values, as no line does.
     """
 
     symbol: str
     arguments: tuple[str, ...]
     compute: Compute
     derivative: Callable[[str], Compute] | None = None
+    unique: Callable[..., None] | None = None
 
 
 def shapes(model: Model) -> dict[str, tuple[int, ...]]:

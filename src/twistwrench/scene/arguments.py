@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from itertools import combinations
 from os import PathLike
 
@@ -122,7 +122,8 @@ def check_contacts(model: Model, contacts: Iterable[Contact]) -> tuple[Contact, 
 
 
 def _terms(contact: Contact) -> dict[str, object]:
-    return {name: value for name, value in vars(contact).items() if name != "frame"}
+    """Return what a contact was made with, but its frame; not what it remembers since."""
+    return {field.name: getattr(contact, field.name) for field in fields(contact) if field.name != "frame"}  # type: ignore[arg-type]
 
 
 def check_wrenches(model: Model, wrenches: Mapping[str, ArrayLike]) -> dict[str, Array]:
