@@ -198,10 +198,19 @@ def test_redundant_contacts_of_a_compiled_scene_are_the_least_squares():
         tw.compile(scene, "dlambda_dq", backend="numpy")(q, rest, rest)
 
 
+@pytest.mark.skipif(not available(), reason="llvmlite is not installed")
+def test_contacts_of_different_friction_share_a_program():
+    model = tw.load("double_pendulum")
+    for mu in (0.5, 0.6, 0.7):
+        contacts = [tw.SphereContact("tip", 0.1, mu, restitution=mu)]
+        tw.contact_forward_dynamics(model, np.ones(2), np.ones(2), np.ones(2), contacts)
+    assert len([key for key in model._programs if key[0] == "held"]) == 1
+
+
 @pytest.mark.parametrize("number", ["double-double", "mpmath"])
 @pytest.mark.parametrize("want", ["qdd", "lambda", "impulse"])
 def test_of_many_forces_no_program_chooses_one_in_more_digits(want, number):
-    """The wrist of an arm is straight: of its six rows five are independent, and a pivot is what rounding makes of 0."""
+    """The wrist of an arm is straight: of its six rows five are independent, and a pivot is rounding."""
     arm = tw.load("ur5")
     scene = tw.Scene(arm, contacts=[tw.SurfaceContact("tool0", (0.1, 0.1), 0.6)])
     program = tw.compile(scene, want, dtype=number)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,6 +16,7 @@ from ..fast.program import Program
 from ..fast.programs import cached_program
 from ..fast.quantity import Quantity
 from ..model import Model
+from .kinds import PointContact, SphereContact, SurfaceContact, WheelContact
 from .programs import Equations, Once, Solution
 from .rows import per_contact
 from .types import Contact
@@ -63,6 +65,13 @@ def known_program(model: Model | MimicModel, kind: str, contacts: Any) -> Contac
     return found
 
 
+def without_friction(contact: Contact) -> Contact:
+    """Return a contact with the same rows: those of different friction share a program."""
+    if type(contact) in (PointContact, SurfaceContact, SphereContact, WheelContact):
+        return replace(contact, mu=1.0, restitution=None)  # type: ignore[type-var]
+    return contact
+
+
 def contact_program(
     model: Model,
     kind: str,
@@ -96,7 +105,7 @@ def contact_program(
 
     known = known_program(model, kind, contacts)
     if known is None:
-        program = cached_program(model, (kind, DOUBLE, contacts), DOUBLE, asked)
+        program = cached_program(model, (kind, DOUBLE, *map(without_friction, contacts)), DOUBLE, asked)
         known = ContactProgram(contacts, program, tuple(c.frame for c in contacts), sum(c.dim for c in contacts))
         every = model._programs.setdefault(kind, {})
         if len(every) >= MAX_KNOWN:  # contacts that are made anew for each call

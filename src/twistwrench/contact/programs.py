@@ -144,7 +144,7 @@ class Equations:
         if (rank < J.shape[-2]).any():
             raise SingularError(
                 f"the contacts hold {J.shape[-2]} directions of which {int(rank.min())} are independent: "
-                "many forces have the same effect, and the least of them has no derivative, nor more digits than a double"
+                "many forces have the same effect, and the one that is chosen has no derivative, nor more digits"
             )
         return J
 

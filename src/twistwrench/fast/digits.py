@@ -94,8 +94,8 @@ class DigitsProgram(ABC):
         line = self.program._code(names).line
         if any(node[0] == "div" and line.nodes[node[2]] == ("const", 0) for node in line.nodes):
             raise SingularError(
-                f"{', '.join(self._symbols)} of {self.model.name!r}: a pivot is zero in every state, as that of rows of "
-                "J that depend on each other; what the textbook chooses there has no more digits than a double"
+                f"{', '.join(self._symbols)} of {self.model.name!r}: a pivot is zero in every state, as that of rows "
+                "of J that depend on each other; what the textbook chooses there has no more digits than a double"
             )
         return line
 
