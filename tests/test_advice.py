@@ -53,6 +53,15 @@ def test_a_proved_error_comes_from_a_bound():
     assert 0 < found.best.error < 1e-9
 
 
+def test_of_several_quantities_the_first_has_a_proved_error_and_a_regressor_no_torques():
+    arm = tw.load("planar_arm")
+    found = tw.advise(arm, "control", within="1e-9 N m", certified=True, rounds=1)
+    assert '("h", "M", "J_c", "A_G"), bound=' in found.best.function
+    assert 0 < found.best.error < 1e-9
+    with pytest.raises(ValueError, match="certified: a bound is proved of programs, in N m; 'identification' has none"):
+        tw.advise(arm, "identification", within="1e-9 N m", certified=True, rounds=1)
+
+
 @pytest.mark.parametrize(
     ("text", "unit", "read"),
     [

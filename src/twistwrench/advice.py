@@ -413,7 +413,8 @@ def advise(
     if start is not None:
         raise ValueError("start: a state to start from belongs to a motion, with duration=")
     most, unit = read_tolerance(within, wanted.unit)
-    if certified and (wanted.want in WITHOUT_PROGRAM or unit != "N m"):
+    proved = wanted.want not in WITHOUT_PROGRAM and wanted.truth is not _torques_of_regressor and unit == "N m"
+    if certified and not proved:
         raise ValueError(f"certified: a bound is proved of programs, in N m; {use!r} has none")
     ways: list[tuple[str, Bound]] = [(number, False) for number in wanted.numbers]
     if certified:
@@ -517,7 +518,7 @@ def _measure(model: Model, use: str, number: str, bound: Bound, unit: str, round
     some = [x[:checked] for x in states]
     usual = "float64" if number == DOUBLE_DOUBLE else number
     if bound:
-        error = float(np.max(np.asarray(_first(compute(*some))[1])))
+        error = float(np.max(np.asarray(_first(compute(*some)[1]))))
     elif beyond:
         error = max(_exact_error(model, wanted, compute, [x[k] for x in some], usual, unit) for k in range(checked))
     else:

@@ -58,6 +58,12 @@ def test_where_a_robot_is_and_where_it_falls_does_not_count():
     assert there.steps == pytest.approx(here.steps, rel=1e-5)
 
 
+@pytest.mark.parametrize("duration", [0, -1.0, np.nan])
+def test_a_motion_of_no_time_has_no_error(duration):
+    with pytest.raises(ValueError, match="duration: expected a time above zero"):
+        tw.motion_error(tw.load("pendulum"), [0.3], [0.0], dt=0.01, duration=duration)
+
+
 def test_the_least_work_keeps_its_promise_on_starts_that_it_never_saw():
     """A double pendulum for half a second within a hundredth of a millimetre, by DOP853 at 40 new starts."""
     integrate = pytest.importorskip("scipy.integrate", reason="SciPy is not installed")

@@ -109,8 +109,8 @@ class Equations:
 
             return compute
 
-        def unique(q: Array, *others: Array) -> None:
-            self._independent_rows(q, np.zeros((*q.shape[:-1], self.model.nv)))
+        def unique(*x: Array) -> None:
+            self._independent_rows(x[0], np.zeros((*x[0].shape[:-1], self.model.nv)))
 
         return Quantity(symbol, self.arguments, compute, derivative, unique)
 

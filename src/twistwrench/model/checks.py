@@ -52,8 +52,9 @@ def check_body(what: str, joint: Joint | None, joint_name: str, placement: SE3, 
 
 def check_placement(placement: SE3, what: str) -> None:
     """Raise for what is not one placement, of real numbers."""
-    check_kind(placement, f"{what}: placement", SE3, "an SE3")
-    _check_one(placement.translation, f"{what}: placement")
+    what = what if what == "placement" else f"{what}: placement"  # of an argument of this name, or of a part
+    check_kind(placement, what, SE3, "an SE3")
+    _check_one(placement.translation, what)
 
 
 def _check_one(vector: Array, what: str) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..algorithms.kinematics import forward_kinematics
-from ..arrays import Array
+from ..arrays import Array, as_number
 from ..model import Model, check_model
 from .methods import METHODS
 from .result import Simulation
@@ -107,6 +107,8 @@ def motion_error(
     """
     check_model(model)
     q, v = model.state(q, v=v)
+    if not as_number(duration, "duration") > 0:
+        raise ValueError(f"duration: expected a time above zero, s, got {duration!r}")
     rng = np.random.default_rng(0)
     aside = model.integrate(q, NUDGE * rng.choice([-1.0, 1.0], (*q.shape[:-1], model.nv)))
     options: dict[str, Any] = {"duration": duration, "method": method, "tau": tau}
