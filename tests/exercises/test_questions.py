@@ -591,3 +591,9 @@ def test_the_guess_is_drawn_beside_the_truth():
 def test_what_is_no_question_or_no_guess_is_refused_by_name(name, guess, error, told):
     with pytest.raises(error, match=re.escape(told)):
         tw.ask(name, guess)
+
+
+@pytest.mark.parametrize("name", [None, 3, "49.9-nothing"])
+def test_what_is_no_name_of_a_question_is_not_known(name):
+    with pytest.raises(tw.NameNotFound, match="question"):
+        tw.ask(name)

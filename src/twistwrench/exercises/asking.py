@@ -257,7 +257,8 @@ def ask(name: str, guess: float | str | EllipsisType | None = None, *, language:
     >>> print(tw.ask("49.9-tipping", 90, language="en").right)
     False
     """
-    known = questions(name.partition("-")[0]) if name.partition("-")[0] in SECTIONS else {}
+    section = name.partition("-")[0] if isinstance(name, str) else ""
+    known = questions(section) if section in SECTIONS else {}
     check_known("question", name, known or [other for section in SECTIONS for other in questions(section)])
     question = known[name]
     given = None if guess is None or guess is ... else _read(question, guess)
