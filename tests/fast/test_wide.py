@@ -52,6 +52,12 @@ def test_an_energy_of_one_state_is_a_number(number):
     assert float(found.U) == pytest.approx(-9.81 * np.cos(0.3), rel=1e-14)
 
 
+@pytest.mark.parametrize("number", [None, "mpmath", "double-double"])
+def test_results_of_any_numbers_show_their_shapes(number):
+    program = compile(tw.load("pendulum"), ("kinetic_energy", "M"), dtype=number or float)
+    assert repr(program([[0.3]] * 5, [0.2])) == "Results(T: (5,), M: (5, 1, 1))"
+
+
 @pytest.mark.one_case
 @pytest.mark.parametrize("number", WIDE)
 @pytest.mark.parametrize("name", sampled(TRUTH, 2))

@@ -64,7 +64,8 @@ class Results(SimpleNamespace):
     """Several quantities, as attributes by their symbols."""
 
     def __repr__(self) -> str:
-        return f"Results({', '.join(f'{name}: {np.shape(x)}' for name, x in vars(self).items())})"
+        shapes = {name: np.shape(getattr(x, "hi", x)) for name, x in vars(self).items()}  # of pairs, too
+        return f"Results({', '.join(f'{name}: {shape}' for name, shape in shapes.items())})"
 
 
 class Program:
