@@ -30,6 +30,9 @@ AIM = 0.7
 WORTH_TRYING, MAX_CHANGE = 1.2, 16.0
 """By how much a step must differ from one that does, to be tried; and by how much it may change at once."""
 
+STEADY = 10.0
+"""A motion that multiplies errors by less is not what makes them large."""
+
 MAX_STEPS = 200_000
 """No method is tried with more."""
 
@@ -169,6 +172,8 @@ def _seconds(model: Model, way: Steps, duration: float, q: Array, v: Array) -> f
 
 def _horizon(model: Model, within: float, duration: float, q: Array, v: Array) -> str:
     """Return in words how long the error of a double stays within so many mm, as it grows with the motion."""
+    if motion_error(model, q, v, dt=duration / np.ceil(duration / FIRST_DT), duration=duration).growth.max() < STEADY:
+        return "the rounding of doubles alone is more"
     shortest = duration
     while shortest > duration / 1000:
         shortest /= 2

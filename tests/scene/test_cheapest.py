@@ -453,3 +453,8 @@ def test_a_motion_of_states_is_judged_as_the_one_they_came_from():
         assert ours.worst() == theirs.worst()
     with pytest.raises(TypeError, match="from_states"):
         quick(scene, [1.0])
+
+
+def test_the_torque_of_a_base_is_not_needed():
+    with pytest.raises(tw.ModelError, match="of: 'root_joint' has no motor"):
+        tw.Scene(HUMANOID).cheapest({"tau": 0.5, "of": ["root_joint"]}, WALK)

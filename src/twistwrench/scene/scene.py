@@ -387,6 +387,8 @@ class Scene:
         need, of = read_tolerance(tolerance)
         full = self.full_model
         needed = self.motors if of is None else matching_joints(full, of, "of")
+        if idle := sorted({*needed} - {*self.motors, *_motors(full, None)[1]}):
+            raise ModelError(f"of: {idle[0]!r} has no motor, so that its torque is not needed")
         if "tau" in need and not needed:
             raise ValueError(f"tolerance: 'tau' is nothing of {full.name!r}: no joint of the scene has a motor")
         motors = [k for name, s in zip(full.joint_names, full.v_slice) if name in needed for k in range(full.nv)[s]]
