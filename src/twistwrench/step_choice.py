@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -172,8 +173,10 @@ def _seconds(model: Model, way: Steps, duration: float, q: Array, v: Array) -> f
 
 def _horizon(model: Model, within: float, duration: float, q: Array, v: Array) -> str:
     """Return in words how long the error of a double stays within so many mm, as it grows with the motion."""
-    if motion_error(model, q, v, dt=duration / np.ceil(duration / FIRST_DT), duration=duration).growth.max() < STEADY:
-        return "the rounding of doubles alone is more"
+    with suppress(DivergenceError):
+        dt = duration / np.ceil(duration / FIRST_DT)
+        if motion_error(model, q, v, dt=dt, duration=duration).growth.max() < STEADY:
+            return "the rounding of doubles alone is more"
     shortest = duration
     while shortest > duration / 1000:
         shortest /= 2
