@@ -10,6 +10,7 @@ from __future__ import annotations
 import ctypes
 import sys
 from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
 from functools import cache, lru_cache
 from typing import Any
 
@@ -111,9 +112,15 @@ def key_of(line: Line, scalar: str, width: int) -> str:
 
     versions = sys.version, llvmlite.__version__, llvm.llvm_version_info, objects.own_source()
     processor = llvm.get_default_triple(), llvm.get_host_cpu_name(), sorted(llvm.get_host_cpu_features().items())
-    operations = [*line.nodes], [*line.inputs.items()], [*line.outputs.items()]
+    nodes = [tuple(map(_written, node)) for node in line.nodes]
+    operations = nodes, [*line.inputs.items()], [*line.outputs.items()]
     text = repr((versions, processor, scalar, width, register_bits(), operations))
     return sha256(text.encode()).hexdigest()
+
+
+def _written(x: Any) -> Any:
+    """Return a fraction as two texts: Python writes no number of more than 4300 digits in tens."""
+    return (hex(x.numerator), hex(x.denominator)) if isinstance(x, Fraction) else x
 
 
 @lru_cache(maxsize=32)  # the same function, made again, has the same text

@@ -46,7 +46,7 @@ def test_dop853_ends_as_far_away_as_is_said(name):
         motion = tw.simulate(model, example.q, example.v, method=method, **options)
         off = apart(model, motion.q[-1], model.normalize(right))
         said = tw.motion_error(model, example.q, example.v, method=method, **options)
-        assert off / 1.5 < said.total < 1.5 * off + 1e-6, (method, off)
+        assert off / 1.5 - 1e-8 < said.total < 1.5 * off + 1e-6, (method, off)  # mm: DOP853 itself is off by 1e-9
 
 
 def test_where_a_robot_is_and_where_it_falls_does_not_count():

@@ -440,7 +440,10 @@ def test_the_tables_of_the_page_are_those_of_the_results(maker, language):
 def check_errors(maker, keys: list[str], robot: str = "go2") -> None:
     """The errors of the run that is kept are found again: none is worse, and few are better."""
     kept = {(p.quantity, p.way, p.number, p.states == 1): p.error for p in maker.points(robot)}
-    found = weigh(tw.load(robot), only=keys, effort=Effort(rounds=1, least=0, most=0)).records
+    records = weigh(tw.load(robot), only=keys, effort=Effort(rounds=1, least=0, most=0)).records
+    found = [
+        p for p in records if (p.quantity, p.way, p.number, p.states == 1) in kept
+    ]  # newer ways come with a new run
     ratio = np.array([p.error / kept[p.quantity, p.way, p.number, p.states == 1] for p in found])
     assert len(ratio) > 10 * len(keys)
     assert [(p, r) for p, r in zip(found, ratio, strict=True) if r > REPRODUCED] == []
