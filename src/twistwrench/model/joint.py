@@ -126,7 +126,7 @@ class Joint(ABC):
         return q
 
     def random(self, rng: np.random.Generator, lower: Array, upper: Array, size: tuple[int, ...] = ()) -> Array:
-        """Draw q, ``(*size, nq)``: uniform between the limits; where they are wide, see `Model.random_configuration`."""
+        """Draw q, ``(*size, nq)``, uniform between the limits; where wide, see `Model.random_configuration`."""
         span = np.ones(self.nq)
         if self.nq == self.nv:  # entry k of q goes along column k of S: an angle, or a length
             span[self.subspace()[:3].any(axis=0)] = np.pi
