@@ -1,12 +1,12 @@
 """Contact dynamics: constraints, friction and the stability of a stance (49.9).
 
 In the order in which the files are best read, each of which imports from earlier ones only: `relative` (how a frame
-moves in what holds it), `types` (what a contact is), `kinds` (points, soles, slides, balls, wheels), `closures` (loops
-and gears); `decomposition` (the rank), `rows` (J and J̇ v of many contacts), `elimination` (the same equations without a
-rank), `programs` (what is compiled of them, and its derivatives), `calls` (a program that is found again at once),
-`forward` (accelerations, impacts, drift); `qp` (least forces within limits), `task` (the wrench that contacts must
-exert, their limits, and the proof that these allow it or not), `inverse` (the forces of a motion), `stance` (slipping
-and tipping).
+moves in what holds it), `types` (what a contact is, and its rows of J), `kinds` (points, soles, slides, balls,
+wheels), `closures` (loops and gears); `decomposition` (the rank), `rows` (J and J̇ v of many contacts), `elimination`
+(the contact equations solved without a test of rank), `programs` (what is compiled of them, and its derivatives),
+`calls` (a program that is found again at once), `forward` (accelerations, impacts, drift); `qp` (least forces within
+limits), `task` (the wrench that contacts must exert, their limits, and the proof that these allow it or not),
+`inverse` (the forces of a motion), `stance` (slipping and tipping).
 """
 
 from .closures import Coupling, DistanceConstraint, LoopClosure

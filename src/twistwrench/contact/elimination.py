@@ -1,4 +1,4 @@
-"""The same equations by elimination alone: what a program can be made of (49.8, 49.9).
+"""The equations of contact solved by elimination, without a test of rank: what a program can be made of (49.8, 49.9).
 
 M x − Jᵀ λ = f and J x = a, in the order in which nothing fills in. M = LᵀDL along the tree, from the tips inward;
 Y = L⁻ᵀ Jᵀ, which is zero wherever a joint does not move a contact; J M⁻¹ Jᵀ = Yᵀ D⁻¹ Y, factorised in the same way. No

@@ -19,6 +19,10 @@ Of lines with more than 150 000 operations there is no machine code, since it wo
 
 How fast all this is, is in benchmarks/README.md; more states than one machine holds are in docs/dask.md.
 
+From `tw.fast.rnea` to machine code it is four steps: the function, in `functions`; `programs.result`, which finds the
+program that the model remembers; `Program.alone`; and there the machine code, which `straightline.extension` calls and
+`straightline.llvm` has made.
+
 Each file imports only from those above it in this table.
 
 ============  ===================================================================================
