@@ -484,7 +484,7 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
         ("skew", lambda w: 1 / 0, "It stopped with ZeroDivisionError: division by zero"),
         ("skew", lambda w: sys.exit(), "It stopped with SystemExit"),
         ("skew", lambda w: w.sort() or np.zeros((3, 3)), "It changes its argument `w`"),
-        ("plucker", lambda R, p: np.eye(6), "It must return 2 things, in this order: X, X*. It returned ndarray."),
+        ("plucker", lambda R, p: np.eye(6), "It must return 2 things: X, X*. It returned ndarray."),
         ("plucker", lambda R, p: (np.eye(6),) * 3, "It returned 3."),
         ("plucker", lambda R: R, "It stopped with TypeError"),
         ("skew", lambda w: -1.7 * reference("skew")(w), "[w]×: 6 of 9 numbers are wrong"),
