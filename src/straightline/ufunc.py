@@ -47,7 +47,7 @@ class ArrayFunction:
         self.empty = {k: shape for k, shape in enumerate(outputs) if 0 in shape}
         self.numbers = [k for k, shape in enumerate(outputs[:-1]) if not shape]
         addresses[2] = _functions()[CLEAR]
-        self.engine = engine_of(Loop(dtype).written(width, inputs, outputs))
+        self.engine = engine_of(LoopText(dtype).written(width, inputs, outputs))
         signature = f"{_words(inputs)}->{_words(there)}".encode()
         loops, data = Pointer(self.engine.get_function_address("loop")), Pointer(ctypes.addressof(addresses))
         types = ctypes.create_string_buffer(bytes([dtype.num] * count), count)
@@ -87,7 +87,7 @@ def _words(shapes: Sequence[Tail]) -> str:
     return ",".join(f"({','.join(map(str, shape))})" for shape in shapes)
 
 
-class Loop(InstructionText):
+class LoopText(InstructionText):
     """The loop that NumPy calls: with pointers to the arrays, the number of states, and steps in bytes.
 
     The steps are those from state to state for each array, then those along the axes of each array's entries.

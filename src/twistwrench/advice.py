@@ -538,7 +538,7 @@ def _random_states(model: Model, n: int) -> list[Array]:
     """Draw q (n, nq), v and a (n, nv): `RANDOM_STATES` states, which are repeated as often as needed."""
     rng = np.random.default_rng(0)
     drawn = min(n, RANDOM_STATES)
-    q = np.stack([model.random_configuration(rng=rng) for _ in range(drawn)])
+    q = model.random_configuration(drawn, rng=rng)
     v, a = rng.standard_normal((2, drawn, model.nv))
     return [np.resize(x, (n, x.shape[-1])) for x in (q, v, a)]
 

@@ -14,7 +14,7 @@ from .model import Model
 from .simulation import METHODS, DivergenceError, simulate
 from .simulation.growth import motion_error
 
-__all__ = ["Plan", "Steps", "cheapest_steps"]
+__all__ = ["Plan", "StepSize", "cheapest_steps"]
 
 STARTS = 64
 """Random starts of a motion."""
@@ -45,7 +45,7 @@ EVALUATIONS = {"rk4": 4, "midpoint": 2, "semi-implicit": 1}
 TRIED = tuple(EVALUATIONS)
 
 
-class Steps(NamedTuple):
+class StepSize(NamedTuple):
     """A method and a step: the largest error, mm, and the seconds that a motion takes here."""
 
     method: str
@@ -63,7 +63,7 @@ class Steps(NamedTuple):
 class Plan(NamedTuple):
     """Result of `cheapest_steps`: the ways that were tried, and in words what they are worth."""
 
-    ways: tuple[Steps, ...]
+    ways: tuple[StepSize, ...]
     starts: int
     sure: str
     instead: str
@@ -95,7 +95,7 @@ def cheapest_steps(
         raise ValueError(f"duration: expected a time above zero, s, got {duration!r}")
     q, v = _starts(model) if start is None else model.state(start[0], v=start[1])
     starts = int(np.prod(q.shape[:-1], dtype=int))
-    ways = list[Steps]()
+    ways = list[StepSize]()
     for method in TRIED:
         most = min([MAX_STEPS, *(way.work / EVALUATIONS[method] for way in ways if way.error <= within)])
         ways.append(_longest_step(model, method, within, duration, q, v, most, progress))
@@ -114,19 +114,18 @@ def cheapest_steps(
 def _starts(model: Model) -> tuple[Array, Array]:
     """Draw states: q within the limits, v of 1 rad/s and 1 m/s."""
     rng = np.random.default_rng(0)
-    q = np.stack([model.random_configuration(rng=rng) for _ in range(STARTS)])
-    return q, rng.standard_normal((STARTS, model.nv))
+    return model.random_configuration(STARTS, rng=rng), rng.standard_normal((STARTS, model.nv))
 
 
 def _longest_step(
     model: Model, method: str, within: float, duration: float, q: Array, v: Array, most: float, progress: bool
-) -> Steps:
+) -> StepSize:
     """Return the longest step of a method that keeps the error; the last one tried if that takes more than most."""
     order = METHODS[method].order
     count = int(np.ceil(duration / FIRST_DT))
-    kept: Steps | None = None
+    kept: StepSize | None = None
     too_few = 0  # steps that did not keep the error, or could not
-    tried = Steps(method, duration / count, np.inf, np.inf, count)
+    tried = StepSize(method, duration / count, np.inf, np.inf, count)
     for _ in range(MAX_TRIES):
         if count > most and np.isfinite(tried.error):
             break
@@ -140,7 +139,7 @@ def _longest_step(
             count = int(np.sqrt(count * kept.steps)) if kept else 4 * count
             continue
         error = float(SAFETY * found.total.max())
-        tried = Steps(method, dt, error, np.nan, count)
+        tried = StepSize(method, dt, error, np.nan, count)
         if error <= within:
             kept = tried
         elif SAFETY * found.rounding.max() > within:
@@ -159,7 +158,7 @@ def _longest_step(
     return best._replace(seconds=_seconds(model, best, duration, q, v))
 
 
-def _seconds(model: Model, way: Steps, duration: float, q: Array, v: Array) -> float:
+def _seconds(model: Model, way: StepSize, duration: float, q: Array, v: Array) -> float:
     """Return the processor time of one motion, the first."""
     first = (0,) * (q.ndim - 1)
     try:

@@ -16,7 +16,7 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 - `words`: figures with Chinese words.
 """
 
-from ..spatial import center_of_pressure as _center_of_pressure
+from ..spatial import center_of_pressure as center_of_pressure  # by its former name as well
 from .contacts import friction_cone, sole
 from .flow import flow, tree_layout
 from .frames import arrows, triad
@@ -32,7 +32,6 @@ from .words import chinese
 
 felt_mass = apparent_mass_ellipse  # both by their former names as well
 seats = tree_layout
-center_of_pressure = _center_of_pressure  # it moved to `tw.center_of_pressure`
 
 __all__ = [
     "ANGULAR_LINEAR",

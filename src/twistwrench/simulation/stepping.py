@@ -43,7 +43,7 @@ from .divergence import DivergenceError, check_divergence
 from .ground import Ground, GroundPoints, point_forces
 from .held import Held, Rows
 from .programs import arrive, middle_of_step
-from .sticking import Program, StickingStep, prepared_sticking
+from .sticking import StepProgram, StickingStep, prepared_sticking
 from .straight import turning
 
 __all__ = ["Joints", "TimeStepping"]
@@ -202,7 +202,7 @@ class TimeStepping:
         return q1, v1
 
     def stand(
-        self, program: Program, tau: Array, q: Array, v: Array, before: Array
+        self, program: StepProgram, tau: Array, q: Array, v: Array, before: Array
     ) -> tuple[StickingStep, Array, Array, Array, float] | None:
         """Return a step in which all that may touch sticks, q and v at its end, how each point misses, the fastest.
 

@@ -31,7 +31,7 @@ from ..spatial import SE3
 from ..spatial.rotation import cross_matrix
 from .straight import shifted_and_turned, turned, turning_rate
 
-__all__ = ["Program", "StickingStep", "prepared_sticking"]
+__all__ = ["StepProgram", "StickingStep", "prepared_sticking"]
 
 DOUBLE = np.dtype(np.float64)
 
@@ -54,7 +54,7 @@ class StickingStep(NamedTuple):
     """(k,), of the points at the end, above the origin of the world."""
 
 
-Program = Callable[..., tuple[Array, ...] | None]
+StepProgram = Callable[..., tuple[Array, ...] | None]
 """From q, v, τ, bounds and impulses before (3 k,), the ground's axes and dt, to a `StickingStep`; None if unsure."""
 
 
@@ -79,7 +79,7 @@ class Sticking:
         self.plain = all(isinstance(c, PointContact | SurfaceContact) for c in contacts)
         self.k = sum(len(c.points) for c in contacts)
 
-    def program(self) -> Program | None:
+    def program(self) -> StepProgram | None:
         """Record and compile it."""
         if not self.plain or default_backend(DOUBLE) != "llvm" or too_long(self.model, ("M",)):
             return None

@@ -9,12 +9,12 @@ import numpy as np
 
 import twistwrench as tw
 
-__all__ = ["GAITS", "Gait", "acceleration", "move"]
+__all__ = ["GAITS", "PrescribedGait", "acceleration", "move"]
 
 TINY = 1e-100  # s, step of the complex-step derivative
 
 
-class Gait(NamedTuple):
+class PrescribedGait(NamedTuple):
     """How the legs swing and the trunk goes along; a leg whose phase is 0 is in the middle of its swing at t = 0."""
 
     strides: float  # per second
@@ -31,13 +31,13 @@ class Gait(NamedTuple):
 
 
 GAITS = {
-    "slow walk": Gait(0.5, (0, 0.5, 0.75, 0.25), sway=0.15, bend=0.3, bob=0.0),
-    "trot": Gait(2.5, (0, 0.5, 0.5, 0)),
-    "bound": Gait(2.5, (0, 0, 0.5, 0.5), pitch=0.15),
+    "slow walk": PrescribedGait(0.5, (0, 0.5, 0.75, 0.25), sway=0.15, bend=0.3, bob=0.0),
+    "trot": PrescribedGait(2.5, (0, 0.5, 0.5, 0)),
+    "bound": PrescribedGait(2.5, (0, 0, 0.5, 0.5), pitch=0.15),
 }
 
 
-def move(t: Any, gait: Gait) -> tuple[np.ndarray, np.ndarray]:
+def move(t: Any, gait: PrescribedGait) -> tuple[np.ndarray, np.ndarray]:
     """Return q and v of Go2 at times t."""
     t, w, height = np.asarray(t)[..., None], 2 * np.pi * gait.strides, _standing_height()
     phase = w * t + 2 * np.pi * np.array(gait.phases)
@@ -56,7 +56,7 @@ def move(t: Any, gait: Gait) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate(q, axis=-1), np.concatenate(v, axis=-1)
 
 
-def acceleration(t: Any, gait: Gait) -> np.ndarray:
+def acceleration(t: Any, gait: PrescribedGait) -> np.ndarray:
     """Return the rate of v."""
     return np.asarray(move(np.asarray(t) + 1j * TINY, gait)[1].imag / TINY)
 
