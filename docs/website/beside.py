@@ -81,10 +81,10 @@ def page(name: str, language: str) -> str:
     out = [
         "---\nhtml_theme.sidebar_secondary.remove: true\n---",
         f"# {said['title'][language]}",
+        steps.step_through(said, language),
         joined(said["intro"][language].strip(), language),
         WORDS[language][2].format(call),
-        steps.step_through(said, language),
-        *([LINES[language]] if said["call"] in steps.STEPPED else []),
+        LINES[language],
     ]
     for part in said["part"]:
         out += _table(part, numbers, language)

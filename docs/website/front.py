@@ -1,4 +1,4 @@
-"""The robot of the front page: a Go2 that trots, with the forces of the ground, drawn by a few lines in the page."""
+"""What moves on the front page: the RNEA of a Go2 line by line, and a Go2 that trots on the forces of the ground."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ import twistwrench as tw
 from twistwrench.motions.support import needs
 from twistwrench.plot.robot import sticks
 from twistwrench.plot.stride import sides
+from twistwrench.tracing.stepper import stepper
 
+from . import handled
 from .film import NEWTONS, film, millimetres
 
-__all__ = ["trot"]
+__all__ = ["hero", "trot"]
 
 FRAMES = 48
 
@@ -28,6 +30,19 @@ WORDS = {
         "says": "左腿为蓝色，右腿为橙色，箭头是地面的力；步态和力都由本程序包算出。",
     },
 }
+
+
+HELD = {
+    "en": ("Go2 walks off, held by its base in the air", "Go2 walks off on three feet, the ground carries it"),
+    "zh": ("Go2 迈步，被拎着基座悬空", "Go2 用三只脚迈步，由地面支撑"),
+}
+
+
+def hero(language: str) -> str:
+    """Return the RNEA on a Go2, from line to line, as a block of HTML."""
+    model, q, v, a, _, ground = handled.walk()
+    held = [tw.trace(model, "rnea", q, v, a, f_ext=f_ext) for f_ext in (None, ground)]
+    return f"```{{raw}} html\n{stepper(dict(zip(HELD[language], held)), language, playing=True)}\n```"
 
 
 def trot(language: str) -> str:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from .film import with_films
-from .front import trot
+from .front import hero, trot
 from .thumbnails import thumbnail
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -143,12 +143,14 @@ def _with_note(text: str) -> str:
 
 def write_texts(out: Path, language: str, listings: dict[str, list[str]]) -> None:
     """Write the pages that only the site has; `<!-- pages: x -->` becomes a list of pages, `gallery: x` doors."""
-    robot = trot(language)
+    moving = {"<!-- stepper -->": hero(language), "<!-- trot -->": trot(language)}
     for path in TEXT.glob("*.md"):
         if path.stem.endswith(SUFFIX["zh"]) != (language == "zh"):
             continue
         name = path.stem.removesuffix(SUFFIX["zh"]).replace("__", "/")
-        text = path.read_text(encoding="utf-8").replace("<!-- trot -->", robot)
+        text = path.read_text(encoding="utf-8")
+        for mark, html in moving.items():
+            text = text.replace(mark, html)
         text = "".join(part if f else joined(part, language) for f, part in cut(text))
         text = re.sub(r"<!-- gallery: (\w+) -->", lambda m: gallery(listings[m[1]], out, language), text)
         text = re.sub(r"<!-- (hidden )?pages: (\w+) -->", lambda m: contents(listings[m[2]], bool(m[1])), text)

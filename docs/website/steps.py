@@ -14,19 +14,14 @@ import twistwrench as tw
 from twistwrench.tracing.printing import html as table_of
 from twistwrench.tracing.stepper import stepper
 
-STEPPED = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "centroidal_map": ()}
+STEPPED = {"forward_kinematics": ("v", "a"), "rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "centroidal_map": ()}
 """The algorithms that can be gone through, by the call, and what each takes besides q."""
 
 STEP = {
-    "en": (
-        "## Step through it",
-        "Every line in the order in which it runs, with the numbers that it gives. Turn the base: what is seen from "
-        "the bodies' frames changes only where gravity is in it; raise a leg, and the inertias change.",
-    ),
-    "zh": (
-        "## 逐行运行",
-        "按运行的顺序列出每一行和它给出的数值。试着转动基座：用刚体坐标系表示的量，只有含重力的才会改变；抬起一条腿，惯量就变了。",
-    ),
+    "en": "Every line in the order in which it runs, with the numbers that it gives. Turn the base: what is seen from "
+    "the bodies' frames changes only where gravity is in it; raise a leg, and the inertias change.",
+    "zh": "按运行的顺序列出每一行和它给出的数值。试着转动基座：用刚体坐标系表示的量，只有含重力的才会改变；"
+    "抬起一条腿，惯量就变了。",
 }
 ATTITUDES = {
     ("level", "水平"): (0.0, 0.0, 0.0),
@@ -79,11 +74,9 @@ CHINESE = {
 
 
 def step_through(said: dict[str, Any], language: str) -> str:
-    """Return the section of a page in which the reader goes from line to line; empty where there is none."""
-    if said["call"] not in STEPPED:
-        return ""
-    page = stepper(dict(_traces(said["call"], language)), language)
-    return "\n\n".join([*STEP[language], f"```{{raw}} html\n{page}\n```"])
+    """Return the head of a page, in which the reader goes from line to line."""
+    page = stepper(dict(_traces(said["call"], language)), language, playing=True)
+    return f"```{{raw}} html\n{page}\n```\n\n{STEP[language]}"
 
 
 def _traces(call: str, language: str) -> Iterator[tuple[str, Any]]:

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 import twistwrench as tw
+from twistwrench.model import tree_terms
 from twistwrench.tracing.stepper import formula, stepper
 from twistwrench.tracing.words import FORMULAS, TERMS, WORDS
 
 from ..robots import shared
 
-NEEDS = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "ccrba": ()}
+NEEDS = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "ccrba": (), "forward_kinematics": ("v", "a")}
 
 
 def traced(name, algorithm, seed=1):
@@ -148,35 +149,107 @@ def test_traces_of_two_algorithms_have_no_page():
         stepper({"a": both["a"]}, "fr")
 
 
-def test_keys_buttons_and_bodies_lead_from_line_to_line(tmp_path):
+def test_the_force_of_a_joint_is_an_arrow_along_its_axis():
+    model = tw.load("cart_pole")
+    found = data(stepper({"x": traced("cart_pole", "rnea")}))["robots"][0]["steps"]
+    along = {step["frame"]: step["along"] for step in found if step["name"] == "tau"}
+    assert along == {i: tree_terms(model, model.neutral()).S[i][:, 0].tolist() for i in (1, 2)}
+    assert not any(step["along"] for step in found if step["name"] != "tau")
+
+
+@pytest.fixture
+def opened(tmp_path):
+    """Open HTML as a page without a network; yield a function that does, and what went wrong there."""
     sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: no page is opened")
     chromium = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
     if chromium is None:
         pytest.skip("no chromium on the PATH, and $CHROMIUM is not set: no page is opened")
-    model = shared("double_pendulum")
-    traces = {str(q): tw.trace(model, "rnea", [q, 0.0], [1.0, 0.0], [0.0, 0.0]) for q in (0.0, 0.5)}
-    (tmp_path / "page.html").write_text(f"<!doctype html><meta charset='utf-8'>{stepper(traces)}", encoding="utf-8")
+    errors = []
     with sync_api.sync_playwright() as play:
         browser = play.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
-        page = browser.new_context(offline=True).new_page()
-        errors = []
-        page.on("pageerror", lambda error: errors.append(str(error)))
-        page.goto((tmp_path / "page.html").as_uri())
-        count, lit = page.locator(".count"), page.locator("pre .lit")
-        assert count.inner_text() == "1 of 11"
-        page.locator(".on").focus()
-        page.keyboard.press("ArrowRight")
-        assert (count.inner_text(), "49.6 V" in lit.inner_text()) == ("2 of 11", True)
-        page.keyboard.press("End")
-        assert "49.6 F_p" in lit.inner_text()
-        page.keyboard.press("Home")
-        page.keyboard.press("ArrowLeft")  # there is nothing before the first
-        assert count.inner_text() == "1 of 11"
-        page.get_by_role("button", name="2 elbow").click()
-        assert (count.inner_text(), page.locator(".formula mark").inner_text()) == ("5 of 11", "V2")
-        page.keyboard.press("End")
-        before = page.locator(".grid").inner_text()
-        page.select_option("select", "1")
-        assert page.locator(".grid").inner_text() != before
-        assert not errors
+
+        def show(html, width=1280, motion="no-preference"):
+            file = tmp_path / "page.html"
+            file.write_text(f"<!doctype html><meta charset='utf-8'>{html}", encoding="utf-8")
+            size = {"width": width, "height": 800}
+            page = browser.new_context(offline=True, viewport=size, reduced_motion=motion).new_page()
+            page.on("pageerror", lambda error: errors.append(str(error)))
+            page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
+            page.clock.install()
+            page.goto(file.as_uri())
+            return page
+
+        yield show
         browser.close()
+    assert not errors
+
+
+def pendulums():
+    model = shared("double_pendulum")
+    return {str(q): tw.trace(model, "rnea", [q, 0.0], [1.0, 0.0], [0.0, 0.0]) for q in (0.0, 0.5)}
+
+
+def test_keys_buttons_and_bodies_lead_from_line_to_line(opened):
+    page = opened(stepper(pendulums()))
+    count, lit = page.locator(".count"), page.locator("pre .lit")
+    assert count.inner_text() == "1 of 11"
+    page.locator(".on").focus()
+    page.keyboard.press("ArrowRight")
+    assert (count.inner_text(), "49.6 V" in lit.inner_text()) == ("2 of 11", True)
+    page.keyboard.press("End")
+    assert "49.6 F_p" in lit.inner_text()
+    page.keyboard.press("Home")
+    page.keyboard.press("ArrowLeft")  # there is nothing before the first
+    assert count.inner_text() == "1 of 11"
+    page.get_by_role("button", name="2 elbow").click()
+    assert (count.inner_text(), page.locator(".formula mark").inner_text()) == ("5 of 11", "V2")
+    page.keyboard.press("End")
+    before = page.locator(".grid").inner_text()
+    page.select_option("select", "1")
+    assert page.locator(".grid").inner_text() != before
+
+
+def test_it_plays_until_the_reader_takes_over_and_is_not_read_aloud_meanwhile(opened):
+    page = opened(stepper(pendulums(), playing=True))
+    count, now = page.locator(".count"), page.locator(".now")
+    assert (count.inner_text(), now.get_attribute("aria-live")) == ("1 of 11", "off")
+    page.clock.run_for(1400)
+    assert count.inner_text() == "2 of 11"
+    page.locator("svg").focus()
+    page.keyboard.press(" ")
+    page.clock.run_for(5000)
+    assert (count.inner_text(), now.get_attribute("aria-live")) == ("2 of 11", "polite")
+    page.keyboard.press(" ")
+    page.clock.run_for(1400)
+    assert count.inner_text() == "3 of 11"
+    page.keyboard.press("ArrowRight")  # the reader goes on by hand
+    page.clock.run_for(5000)
+    assert count.inner_text() == "4 of 11"
+    page.keyboard.press("End")
+    page.get_by_role("button", name="Play").click()
+    page.clock.run_for(1400)  # from the beginning again
+    assert count.inner_text() == "1 of 11"
+
+
+def test_where_no_motion_is_wanted_it_waits(opened):
+    page = opened(stepper(pendulums(), playing=True), motion="reduce")
+    page.clock.run_for(5000)
+    assert page.locator(".count").inner_text() == "1 of 11"
+
+
+@pytest.mark.parametrize("width", [390, 1280])
+@pytest.mark.parametrize("algorithm", ["rnea", "aba"])
+def test_nothing_moves_from_one_step_to_the_next(opened, algorithm, width):
+    page = opened(stepper({"x": traced("go2", algorithm)}), width)
+    places = page.evaluate("""() => {
+      const root = document.querySelector(".tw-stepper"), slider = root.querySelector(".slider"), seen = new Set();
+      for (let k = 0; k <= Number(slider.max); k++) {
+        slider.value = k;
+        slider.oninput();
+        const tops = [...root.querySelectorAll(".panel > div, .bodies, svg")].map((e) => e.getBoundingClientRect());
+        seen.add(JSON.stringify(tops.map((r) => [r.top, r.height])));
+      }
+      return [...seen];
+    }""")
+    assert len(places) == 1
+    assert page.evaluate("() => document.scrollingElement.scrollWidth - innerWidth") <= 0

@@ -39,6 +39,7 @@ def traces(case):
         tw.trace(model, "rnea", q, v, a, f_ext=f_ext),
         tw.trace(model, "aba", q, v, tau=tau, f_ext=f_ext),
         tw.trace(model, "crba", q),
+        tw.trace(model, "forward_kinematics", q, v, a),
     ]
 
 
@@ -52,10 +53,14 @@ def close(x, y, name=""):
 
 def test_watching_changes_nothing(case):
     model, q, v, a, f_ext = case
-    inverse, forward, matrix = traces(case)
+    inverse, forward, matrix, motion = traces(case)
+    found = tw.forward_kinematics(model, q, v, a)
     np.testing.assert_array_equal(inverse.result, tw.rnea(model, q, v, a, f_ext))
     np.testing.assert_array_equal(forward.result, tw.aba(model, q, v, inverse.result, f_ext))
     np.testing.assert_array_equal(matrix.result, tw.crba(model, q))
+    np.testing.assert_array_equal(motion.result, [T.matrix() for T in found.placement])
+    np.testing.assert_array_equal(motion["V"], found.twist)
+    np.testing.assert_array_equal(motion["A"], found.acceleration)
 
 
 def test_every_step_is_a_line_of_the_source(case):
@@ -63,9 +68,11 @@ def test_every_step_is_a_line_of_the_source(case):
         "newton_euler": "rnea",
         "articulated_body": "aba",
         "composite_rigid_body": "crba",
+        "placements": "kinematics",
+        "motion": "kinematics",
     }
     for trace in traces(case):
-        assert len(trace.steps) > 5 * trace.model.nbodies
+        assert len(trace.steps) >= 3 * (trace.model.nbodies - 1)
         for step in trace.steps:
             lines = (SOURCE / "algorithms" / f"{files[step.function]}.py").read_text(encoding="utf-8").splitlines()
             assert step.source == lines[step.line - 1].strip()
@@ -138,7 +145,7 @@ def test_twists_accelerations_and_wrenches_are_those_of_the_slow_obvious_way(cas
 
 def test_articulated_inertia_and_bias_give_the_wrench_of_the_joint(case):
     """IA A + pA is the wrench at the joint in the motion that results: what rnea finds from the other side."""
-    inverse, forward, _ = traces(case)
+    inverse, forward, *_ = traces(case)
     for there, here in zip(inverse.rows, forward.rows):
         IA, pA = (here.accounts[name].total for name in ("IA", "pA"))
         F = there.accounts["F"].total
@@ -236,7 +243,9 @@ def test_table_and_tree_are_a_hundred_columns_wide_at_most(name):
     rng = np.random.default_rng(0)
     model, q = MODELS[name], MODELS[name].random_configuration(rng=rng)
     v, a = rng.standard_normal((2, model.nv))
-    for trace in (tw.trace(model, "rnea", q, v, a), tw.trace(model, "aba", q, v, tau=a), tw.trace(model, "crba", q)):
+    given = {"rnea": {"v": v, "a": a}, "aba": {"v": v, "tau": a}, "crba": {}, "forward_kinematics": {"v": v, "a": a}}
+    for algorithm, rest in given.items():
+        trace = tw.trace(model, algorithm, q, **rest)
         assert max(map(len, [*str(trace).splitlines(), *trace.tree().splitlines()])) <= 100
 
 
@@ -281,7 +290,7 @@ def test_the_last_value_that_a_line_gives_is_that_of_the_record(case):
         for row in trace.rows[1:]:
             for name, account in row.accounts.items():
                 np.testing.assert_array_equal(last.get((name, row.body), account.own), account.total)
-            for name in ("V", "c", "A", "U", "D", "u", "tau", "qdd"):
+            for name in ("T", "V", "c", "A", "U", "D", "u", "tau", "qdd"):
                 if name in row.values:
                     np.testing.assert_array_equal(last[name, row.body], row.values[name])
 

@@ -96,9 +96,10 @@ def forward_kinematics(
         return Kinematics(placements(model.parent, joint_placements(model, q)), None, None)
     q, v, *rest = check_state(model, q, v=v) if a is None else check_state(model, q, v=v, a=a)
     tree = tree_terms(model, q)
+    placement = placements(model.parent, tree.placement)
     V, A = motion(tree, columns(model, v), columns(model, rest[0] if rest else np.zeros_like(v)))
     twist, acceleration = (np.stack(x, axis=-3)[..., 0] for x in (V, A))
-    return Kinematics(placements(model.parent, tree.placement), twist, acceleration if rest else None)
+    return Kinematics(placement, twist, acceleration if rest else None)
 
 
 def placements(parent: tuple[int, ...], relative: list[SE3]) -> list[SE3]:

@@ -1,4 +1,4 @@
-"""`trace`: run the textbook's rnea, aba, crba or ccrba, and read off what each body received and passed on."""
+"""`trace`: run an algorithm of the textbook, and read off what each body received and passed on."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ..algorithms.aba import aba_terms, articulated_body
 from ..algorithms.centroidal import centroidal_composite, centroidal_terms, wrench_transforms
 from ..algorithms.crba import composite_rigid_body, crba_terms
-from ..algorithms.kinematics import placements
+from ..algorithms.kinematics import forward_kinematics, motion, placements
 from ..algorithms.rnea import newton_euler, rnea_terms
 from ..algorithms.terms import AbaTerms, CentroidalTerms, CrbaTerms, RneaTerms
 from ..arrays import Array
@@ -24,16 +24,19 @@ from .listing import Assignment, places
 
 __all__ = ["listings", "trace"]
 
-NEEDED = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "ccrba": ()}
+NEEDED = {"rnea": ("v", "a"), "aba": ("v", "tau"), "crba": (), "ccrba": (), "forward_kinematics": ("v", "a")}
 """The arguments of each algorithm besides q."""
 
-RESULT = {"rnea": "tau", "aba": "qdd", "crba": "M", "ccrba": "A_G"}
+RESULT = {"rnea": "tau", "aba": "qdd", "crba": "M", "ccrba": "A_G", "forward_kinematics": "T"}
 """The result of each algorithm."""
+
+UNMOVED = {"crba": "neither M nor A_G", "ccrba": "neither M nor A_G", "forward_kinematics": "no placement or motion"}
+"""What wrenches from outside do not affect."""
 
 
 def trace(
     model: Model,
-    algorithm: Literal["rnea", "aba", "crba", "ccrba"],
+    algorithm: Literal["rnea", "aba", "crba", "ccrba", "forward_kinematics"],
     q: ArrayLike,
     v: ArrayLike | None = None,
     a: ArrayLike | None = None,
@@ -44,20 +47,20 @@ def trace(
     """Run an algorithm, and return what each body received and passed on.
 
     The algorithm is the textbook function itself. Each value is a term of its record (`rnea_terms`, `aba_terms`,
-    `crba_terms`, `centroidal_terms`) and has the same name as in the source. What a body passes on is expressed in
-    the frame of its parent, where it is added.
+    `crba_terms`, `centroidal_terms`) and has the same name as in the source; those of `forward_kinematics` are T, V
+    and A. What a body passes on is expressed in the frame of its parent, where it is added.
 
     Parameters
     ----------
     model : Model
-    algorithm : {"rnea", "aba", "crba", "ccrba"}
+    algorithm : {"rnea", "aba", "crba", "ccrba", "forward_kinematics"}
         "ccrba" is the algorithm of `centroidal_map`.
     q : array_like, shape (nq,)
         One configuration.
     v : array_like, shape (nv,), optional
-        For rnea and aba.
+        For rnea, aba and forward_kinematics.
     a : array_like, shape (nv,), optional
-        For rnea.
+        For rnea and forward_kinematics.
     tau : array_like, shape (nv,), optional
         For aba, N m or N.
     f_ext : array_like, shape (nbodies, 6), optional
@@ -77,7 +80,7 @@ def trace(
 
     Notes
     -----
-    Sections 49.6, 49.7, 49.8 and 49.10; Featherstone, RBDA tables 5.1, 7.1 and 6.2.
+    Sections 49.3, 49.6, 49.7, 49.8 and 49.10; Featherstone, RBDA tables 5.1, 7.1 and 6.2.
 
     Examples
     --------
@@ -97,8 +100,8 @@ def trace(
     if tuple(given) != NEEDED[algorithm]:
         expected = ", ".join(("q", *NEEDED[algorithm]))
         raise ValueError(f"{algorithm} takes {expected}; got {', '.join(('q', *given))}")
-    if f_ext is not None and not NEEDED[algorithm]:
-        raise ValueError("f_ext: expected none, since neither M nor A_G depends on it")
+    if f_ext is not None and algorithm in UNMOVED:
+        raise ValueError(f"f_ext: expected none, since {UNMOVED[algorithm]} depends on it")
     wrenches = {} if f_ext is None else {"f_ext": f_ext}
     checked, *_ = model.state(q, **given, **wrenches)  # of one batch shape
     if checked.ndim != 1:
@@ -109,7 +112,7 @@ def trace(
     rows = tuple(read(model, tree, terms))
     steps = (_ccrba_steps if algorithm == "ccrba" else _steps)(algorithm, model, terms, rows)
     place = placements(model.parent, list(tree.placement))
-    return Trace(algorithm, model, getattr(terms, RESULT[algorithm]), rows, tuple(steps), tuple(place))
+    return Trace(algorithm, model, np.asarray(getattr(terms, RESULT[algorithm])), rows, tuple(steps), tuple(place))
 
 
 def listings(algorithm: str) -> tuple[Callable[..., Any], ...]:
@@ -154,6 +157,26 @@ def _ccrba_rows(model: Model, tree: Tree, x: CentroidalTerms) -> list[BodyRecord
     return [_row(model, i, {"IC": IC[i]}, {"X": x.X[i], "A_G": A_G[i]}) for i in range(model.nbodies)]
 
 
+class _Motion(NamedTuple):
+    """What `forward_kinematics` computes, by the names in its source."""
+
+    T: list[Array]
+    V: list[Array]
+    A: list[Array]
+
+
+def _kinematic_terms(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> _Motion:
+    found = forward_kinematics(model, q, v, a)
+    assert found.twist is not None
+    assert found.acceleration is not None
+    return _Motion([T.matrix() for T in found.placement], [*found.twist], [*found.acceleration])
+
+
+def _kinematic_rows(model: Model, tree: Tree, x: _Motion) -> list[BodyRecord]:
+    """49.3 and 49.6: placements, twists and accelerations outward."""
+    return [_row(model, i, {}, {"T": x.T[i], "V": x.V[i], "A": x.A[i]}) for i in range(model.nbodies)]
+
+
 def _inward(X: Array, wrench: Array) -> Array:
     """Return a wrench in the parent's frame, as the recursions take it there."""
     there: Array = X.mT @ wrench[:, None]
@@ -177,15 +200,15 @@ def _steps(algorithm: str, model: Model, terms: Any, rows: Sequence[BodyRecord])
     sums: dict[Any, list[Array]] = {
         (name, row.body): _sums(account) for row in rows for name, account in row.accounts.items()
     }
-    (listing,) = listings(algorithm)
-    for place in places(listing, model.parent):
-        name, index = place.name, place.index
-        if (name, index) in sums:
-            values = sums[name, index]
-            value = values[0] if place.own else values.pop(1)
-        else:
-            value = _value(model, getattr(terms, name), index)
-        yield Assignment(listing.__name__, place.line, place.source, place.body, name, index, value)
+    for listing in listings(algorithm):
+        for place in places(listing, model.parent):
+            name, index = place.name, place.index
+            if (name, index) in sums:
+                values = sums[name, index]
+                value = values[0] if place.own else values.pop(1)
+            else:
+                value = _value(model, getattr(terms, name), index)
+            yield Assignment(listing.__name__, place.line, place.source, place.body, name, index, value)
 
 
 def _ccrba_steps(
@@ -233,5 +256,6 @@ _ALGORITHMS = {
     "aba": _Algorithm(aba_terms, _aba_rows, (articulated_body,)),
     "crba": _Algorithm(crba_terms, _crba_rows, (composite_rigid_body,)),
     "ccrba": _Algorithm(centroidal_terms, _ccrba_rows, (wrench_transforms, composite_inertias, centroidal_composite)),
+    "forward_kinematics": _Algorithm(_kinematic_terms, _kinematic_rows, (placements, motion)),
 }
 """An algorithm, the function that reads the accounts off its record, and where its lines stand."""

@@ -67,7 +67,7 @@ class Trace:
 
     Attributes
     ----------
-    algorithm : {"rnea", "aba", "crba", "ccrba"}
+    algorithm : {"rnea", "aba", "crba", "ccrba", "forward_kinematics"}
     model : Model
     result : ndarray
         What the algorithm returned.

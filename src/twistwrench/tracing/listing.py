@@ -91,7 +91,7 @@ class _Reader:
         for s in statements:
             if isinstance(s, ast.For):
                 outward = range(1, len(self.parent))
-                for i in outward if ast.unparse(s.iter) == "tree.outward" else reversed(outward):
+                for i in reversed(outward) if ast.unparse(s.iter) == "tree.inward" else outward:
                     yield from self.read(s.body, {"i": i})
             elif isinstance(s, ast.While):  # on the way to the base
                 while self.parent[at["j"]] > 0:

@@ -30,11 +30,12 @@ UNITS = {
     "M": "kg m² to kg",
     "A_G": "kg m² to kg",
     "X": "1, m",
+    "T": "1, m",
     "D_inv": "1/(kg m²) to 1/kg",
     "qdd": "rad/s², m/s²",
 }
 
-FIRST = {"rnea": ("V", "A"), "aba": ("V", "c"), "crba": (), "ccrba": ()}
+FIRST = {"rnea": ("V", "A"), "aba": ("V", "c"), "crba": (), "ccrba": (), "forward_kinematics": ("T", "V", "A")}
 """The values found before anything is passed inward; the others follow the accounts."""
 
 PASSED = {
@@ -115,6 +116,9 @@ def _without_rounding(rows: Sequence[BodyRecord]) -> list[BodyRecord]:
 
 def _passes(algorithm: str, row: BodyRecord) -> str:
     """Return in a line what a body passes on, and its joint's force or apparent inertia."""
+    if algorithm == "forward_kinematics":
+        origin = ", ".join(map(_number, row.values["T"][:3, 3]))
+        return f"at {origin} m; {_norm(row.values['V'][:3])} rad/s, {_norm(row.values['V'][3:])} m/s"
     account, *_ = row.accounts.values()
     if account.passed is None:
         return ""
@@ -133,6 +137,8 @@ def _passes(algorithm: str, row: BodyRecord) -> str:
 
 
 def _title(trace: Trace) -> str:
+    if trace.algorithm == "forward_kinematics":
+        return "where each body is in the world, and how it moves,\nin its own frame (angular, linear)"
     return f"what each body received, and passed on to its parent:\n{PASSED[trace.algorithm]} (angular, linear)"
 
 
@@ -163,6 +169,8 @@ def _numbers(what: str, name: str, x: Array) -> Iterator[Line]:
     unit = _unit(name)
     if x.ndim == 1:
         yield what, [_number(entry) for entry in x], unit
+    elif name == "T":
+        yield "T: origin", [_number(entry) for entry in x[:3, 3]], "m"
     elif x.shape[0] == x.shape[1] > 1:
         yield f"{what}, diag.", [_number(entry) for entry in np.diagonal(x)], unit
     else:

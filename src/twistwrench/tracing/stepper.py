@@ -31,7 +31,7 @@ __all__ = ["stepper"]
 PAGE = Path(__file__).with_name("stepper.html")
 
 
-def stepper(traces: Mapping[str, Trace], language: str = "en") -> str:
+def stepper(traces: Mapping[str, Trace], language: str = "en", playing: bool = False) -> str:
     """Return traces of one algorithm as a piece of HTML, in which the reader goes from line to line.
 
     Parameters
@@ -39,6 +39,8 @@ def stepper(traces: Mapping[str, Trace], language: str = "en") -> str:
     traces : mapping of str to Trace
         By what the reader chooses them by. Traces of one model share their steps.
     language : {"en", "zh"}
+    playing : bool
+        Whether it goes from line to line by itself from the start; not where the reader wants no motion.
 
     Returns
     -------
@@ -67,6 +69,7 @@ def stepper(traces: Mapping[str, Trace], language: str = "en") -> str:
     cases = [_case(label, trace, [*robots].index(trace.model.name)) for label, trace in traces.items()]
     data = {
         "words": WORDS[language],
+        "playing": playing,
         "listings": [_listing(function) for function in listings(*algorithms)],
         "robots": [_robot(trace, language) for trace in robots.values()],
         "cases": _without_repetition(cases),
@@ -110,7 +113,6 @@ def _step(trace: Trace, step: Assignment, listing: int, language: str) -> dict[s
     frame = step.index if isinstance(step.index, int) else step.index[0]
     says = TERMS[step.name, trace.algorithm] if (step.name, trace.algorithm) in TERMS else TERMS[step.name]
     single = step.name in ("tau", "u", "qdd") and _dofs(trace.model, frame) == 1
-    heads = [f"{part}<sub>{axis}</sub>" for part in PARTS.get(step.name, ()) for axis in "xyz"]
     return {
         "listing": listing,
         "line": step.line,
@@ -120,8 +122,9 @@ def _step(trace: Trace, step: Assignment, listing: int, language: str) -> dict[s
         "anchor": step.anchor,
         "formula": formula(FORMULAS[step.anchor or ""], numbers),
         "says": re.sub(r"\b[ijkp]\b", lambda m: str(numbers[m[0]]), says[language]),
-        "heads": [] if single else heads,
+        "parts": [] if single else PARTS.get(step.name, ()),
         "units": _units(trace, step),
+        "along": _rounded(_subspace(trace.model, frame)[:, 0]) if single else [],
         "arrows": step.name in PARTS and not single and step.name != "A_G",  # A_G has another frame
     }
 
@@ -187,8 +190,12 @@ def _dofs(model: Model, i: int) -> int:
 
 def _is_turning(model: Model, i: int) -> bool:
     """Whether a joint of one degree of freedom turns."""
-    S = tree_terms(model, model.neutral()).S[i]
-    return bool(np.any(S[:3]))
+    return bool(np.any(_subspace(model, i)[:3]))
+
+
+def _subspace(model: Model, i: int) -> Array:
+    """Return the motion subspace of a joint."""
+    return tree_terms(model, model.neutral()).S[i]
 
 
 def _case(label: str, trace: Trace, robot: int) -> dict[str, Any]:

@@ -11,6 +11,9 @@ from typing import Any
 __all__ = ["FORMULAS", "PARTS", "TERMS", "WORDS"]
 
 FORMULAS = {
+    "49.3 T": "T_{0,i} = T_{0,p} T_{p,i}",
+    "49.2 V": "V_i = X_i V_p + S_i q̇_i",
+    "49.2 A": "A_i = X_i A_p + S_i q̈_i + V_i × S_i q̇_i",
     "49.6 A0": "A_i = (0, −g)",
     "49.6 V": "V_i = X_i V_p + S_i q̇_i",
     "49.6 A": "A_i = X_i A_p + S_i q̈_i + V_i × S_i q̇_i",
@@ -58,6 +61,11 @@ PARTS = {
 """The letters of the angular and of the linear part."""
 
 TERMS: dict[Any, dict[str, str]] = {
+    "T": {"en": "placement of body i in the world, a 4 x 4 matrix", "zh": "刚体 i 在世界中的位姿，4 × 4 矩阵"},
+    ("A", "forward_kinematics"): {
+        "en": "spatial acceleration of body i, without gravity, in frame i",
+        "zh": "刚体 i 的空间加速度（不含重力），用坐标系 i 表示",
+    },
     "V": {"en": "twist of body i, in frame i", "zh": "刚体 i 的 twist，用坐标系 i 表示"},
     "A": {
         "en": "acceleration of body i, gravity in it, in frame i",
@@ -105,13 +113,19 @@ WORDS = {
         "next": "Next step",
         "code": "The source",
         "tree": "The tree of bodies",
+        "formula": "The formula",
+        "line": "The line of code",
+        "arrow": "The arrows on the robot",
         "numbers": "The numbers",
+        "play": "Play",
+        "pause": "Pause",
         "picture": "The robot; the body whose turn it is in orange, the frame of the numbers with its axes",
         "view": "Turn the picture",
         "angular": "angular",
         "linear": "linear",
         "unit": "unit",
-        "keys": "← and → go through the lines, Home and End to the ends; choose a body to go to its next line.",
+        "keys": "← and → go through the lines, Home and End to the ends, space plays and pauses; choose a body to go to "
+        "its next line.",
     },
     "zh": {
         "lang": "zh-CN",
@@ -123,12 +137,17 @@ WORDS = {
         "next": "下一步",
         "code": "源码",
         "tree": "刚体树",
+        "formula": "公式",
+        "line": "代码行",
+        "arrow": "机器人上的箭头",
         "numbers": "数值",
+        "play": "播放",
+        "pause": "暂停",
         "picture": "机器人；橙色是当前刚体，画出坐标轴的是数值所用的坐标系",
         "view": "转动图形",
         "angular": "角",
         "linear": "线",
         "unit": "单位",
-        "keys": "用 ← 与 → 逐行移动，Home 与 End 到两端；点选刚体则跳到它的下一行。",
+        "keys": "用 ← 与 → 逐行移动，Home 与 End 到两端，空格键播放或暂停；点选刚体则跳到它的下一行。",
     },
 }

@@ -60,7 +60,8 @@ hand.begin("film", (root, words, robot) => {
     const name = `<i>${inward ? "F" : "V"}</i><sub>${body}</sub>`, parent = robot.names[robot.parent[body]];
     const says = !inward ? (body === 1 ? words.base_twist : words.outward) : body === 1 ? words[held ? "base_stands" : "base_held"] : words.inward;
     const torque = inward && body > 1 ? ` τ = ${show(robot.tau[held][body - 2], 2)} N m.` : "";
-    numbers.innerHTML = hand.table(["", ..."xyz"], [
+    const line = `<p class="hand-formula">${robot.formulas[Number(inward)][body]}</p><pre class="hand-line">${robot.lines[Number(inward)]}</pre>`;
+    numbers.innerHTML = line + hand.table(["", ..."xyz"], [
       [inward ? words.moment : words.omega, ...x.slice(0, 3).map((c) => show(c, 3))], [inward ? words.f : words.v, ...x.slice(3).map((c) => show(c, 3))],
     ], `${name}, ${words.frame} ${robot.names[body]}`) + `<p class="hand-verdict">${says.replace("{parent}", parent).replace("{body}", robot.names[body])}${torque}</p>`;
   }
