@@ -2,6 +2,7 @@
 
 usage:  python docs/build.py             the site, below build/site/html; open index.html there
         python docs/build.py --check     and every link in it, and pages of both languages in a headless Chromium
+        python docs/build.py --draft en  for an author: one language, and notebooks as they were run before
 
 Needs `pip install -e ".[docs]"`. Every warning is an error. Nothing is fetched: the site, and building it, work without
 a network. The first build runs the notebooks; later ones run only those of which something has changed. Where
@@ -14,26 +15,42 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Sequence
 from importlib.metadata import files
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from website import beside, browser, cards, chapter, formulas, hands, inpage, interface, links, notebooks, pages
+from website import (
+    beside,
+    browser,
+    cards,
+    chapter,
+    figures,
+    formulas,
+    hands,
+    inpage,
+    interface,
+    links,
+    notebooks,
+    pages,
+)
 
 OUT = pages.ROOT / "build" / "site"
 MATHJAX = "tex-svg-full.js"
 
 
-def stage() -> None:
-    """Write what Sphinx reads: a tree of pages for each language, with the same names in both."""
+def stage(languages: Sequence[str], draft: bool, done: Callable[[str], None]) -> None:
+    """Write what Sphinx reads: a tree of pages for each language, with the same names in all."""
     new = OUT / "new"
     shutil.rmtree(new, ignore_errors=True)
-    trees = {language: new / language for language in pages.LANGUAGES}
-    notebooks.write_notebooks(trees, OUT / "cache")
+    trees = {language: new / language for language in languages}
+    notebooks.write_notebooks(trees, OUT / "cache", draft)
+    done("notebooks written")
     listings = {"studies": pages.studies(), "algorithms": beside.names()}
     listings["project"] = [name for name in ("readme", *pages.PROJECT) if name in pages.pages().values()]
     for language, tree in trees.items():
+        figures.write_gallery(tree, notebooks.names(), language)
         pages.write_pages(tree, language)
         cards.write_map(tree, language)
         pages.write_texts(tree, language, listings)
@@ -44,11 +61,11 @@ def stage() -> None:
     mathjax = next(f for f in files("sphinx-mathjax-offline") or [] if f.name == MATHJAX)
     target = OUT / "static" / "mathjax" / MATHJAX
     pages.write(target, mathjax.read_text(encoding="utf-8"))
-    gone = pages.replace(OUT / "pages", new)
+    for language, tree in trees.items():
+        if pages.replace(OUT / "pages" / language, tree):  # a page is gone, and what was built from it goes too
+            shutil.rmtree(OUT / "html" / language, ignore_errors=True)
+            shutil.rmtree(OUT / "doctrees" / language, ignore_errors=True)
     shutil.rmtree(new)
-    if gone:  # a page is gone, and what was built from it goes too
-        shutil.rmtree(OUT / "html", ignore_errors=True)
-        shutil.rmtree(OUT / "doctrees", ignore_errors=True)
 
 
 def sphinx(language: str) -> subprocess.Popen[bytes]:
@@ -68,24 +85,27 @@ def main() -> int:
     """Build, and check if asked to."""
     parser = argparse.ArgumentParser(description="Build the site.")
     parser.add_argument("--check", action="store_true", help="check every link, and open pages in Chromium")
-    check, start = parser.parse_args().check, time.perf_counter()
+    parser.add_argument("--draft", choices=pages.LANGUAGES, help="one language alone, with the outputs that are there")
+    given, start = parser.parse_args(), time.perf_counter()
+    languages = [given.draft] if given.draft else pages.LANGUAGES
 
     def done(what: str) -> None:
         print(f"{what}: {time.perf_counter() - start:.0f} s", flush=True)
 
-    stage()
-    done("pages and notebooks written")
-    runs = [sphinx(language) for language in pages.LANGUAGES]
+    stage(languages, bool(given.draft), done)
+    done("pages written")
+    runs = [sphinx(language) for language in languages]
     if sum(run.wait() for run in runs):  # wait for both
         print("the site was not built: see the warnings above", file=sys.stderr)
         return 1
+    done("HTML written")
     formulas.write_formulas(OUT / "html")
     done("formulas set")
     write_door(OUT / "html")
     inpage.write_runtime(OUT / "html")
-    inpage.write_downloads(OUT / "html", notebooks.names())
+    inpage.write_downloads(OUT / "html", languages, notebooks.names())
     done(f"built {OUT / 'html' / 'index.html'}")
-    if not check:
+    if not given.check:
         return 0
     wrong = [*links.check(OUT / "html")]
     done("links checked")

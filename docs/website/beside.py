@@ -18,6 +18,7 @@ from twistwrench.tracing.anchors import anchor_of
 
 from . import steps
 from .pages import ROOT, joined, write
+from .sketches import sketch
 
 FOLDER = Path(__file__).resolve().parent / "algorithms"
 SOURCE = ROOT / "src" / "twistwrench"
@@ -118,7 +119,20 @@ def _row(k: int, step: dict[str, Any], part: Lines, language: str) -> str:
     return f"::::{{container}} step\n{say}\n:::{{container}} code\n{listing}\n:::\n::::"
 
 
+def _shown(name: str) -> str:
+    """Return the formula that stands for an algorithm: that of its last step that has one."""
+    return (
+        "$" + [step["tex"].strip() for part in read(name)["part"] for step in part["step"] if "tex" in step][-1] + "$"
+    )
+
+
 def write_algorithms(out: Path, language: str) -> None:
-    """Write the page of every algorithm."""
+    """Write the page of every algorithm, and the doors to them into the page that leads to them."""
+    index, doors = out / "algorithms" / "index.md", ["::::{container} doors"]
     for name in names():
+        title = f"**[{read(name)['title'][language]}]({name}.md)**"
+        drawn = f"```{{raw}} html\n{sketch(name, language)}```"
+        doors.append("\n\n".join([f":::{{container}} door\n{drawn}", title, _shown(name)]) + "\n:::")
         write(out / "algorithms" / f"{name}.md", page(name, language))
+    text = index.read_text(encoding="utf-8")
+    write(index, text.replace("<!-- doors -->", "\n".join([*doors, "::::"])))

@@ -11,26 +11,29 @@ from misstep import skeletons
 from misstep.text import Language, wrapped
 from twistwrench.exercises.chapter import COURSE
 
-from . import beside, hands, inpage, interface, notebooks
+from . import beside, figures, hands, inpage, interface, notebooks
 from .pages import ROOT, SUFFIX, contents, joined, write
 
 INTRO = {
     "en": """# The chapter
 
-A notebook for each section, and one to begin with; beside it the algorithms line by line, the functions, and what the
+A notebook for each section, and one to begin with; below it the algorithms line by line, the functions, and what the
 chapter gets wrong there. The outputs are those of the run that built this site, and everything that a notebook says in
 numbers is an `assert`. To change a cell and see what still holds, press *Run* in its page where there is such a button,
 or download the notebook.""",
     "zh": """# 逐节学习
 
-每节一个笔记本，另有一个用来起步；表中同时列出相应的逐行算法、函数，以及本章该节的勘误。
+每节一个笔记本，另有一个用来起步；下面列出相应的逐行算法、函数，以及本章该节的勘误。
 页面上的输出来自构建本站时的运行；笔记本中凡是用数字说明的结论，都有一条 `assert` 检验。
 想改动代码、看看哪些结论还成立，页面上有「运行」按钮时就在页面里运行，或者下载笔记本。""",
 }
-HEAD = {
-    "en": ("Read and run", "Line by line", "Functions", "Errata"),
-    "zh": ("笔记本", "逐行读", "函数", "勘误"),
+WORDS = {
+    "en": {"lines": "Line by line", "functions": "Functions", "wrong": "Errata", "colon": ": "},
+    "zh": {"lines": "逐行读", "functions": "函数", "wrong": "勘误", "colon": "："},
 }
+SHOWN = {"49_02_twist": 2, "49_03_pluecker": 1, "49_04_wrench": 2, "49_05_inertia": 1, "49_06_rnea": 1, "49_08_crba": 1}
+SHOWN |= {"49_09_floating_base": 1, "49_10_centroidal": 1, "scenes": 1}
+"""Which picture of a notebook stands for it; of the others, the first."""
 EXERCISES = {
     "en": """# Exercises
 
@@ -61,22 +64,42 @@ ANSWER = """<details class="exercise" data-number="{}"><summary>{}</summary>
 def write_chapter(out: Path, language: str) -> None:
     """Write the page of the chapter's path."""
     at, errata = interface.sections(), _errata(language)
-    rows = ["| {} | {} | {} | {} |".format(*HEAD[language]), "|---|---|---|---|"]
+    doors, say = [], WORDS[language]
     for name in notebooks.names():
         number = _number(name)
         lines = [f"[{call}](../algorithms/{page}.md)" for page, call in _algorithms(number, at)]
         functions = [page for page in interface.by_page() if at.get(page) == number]
         files = [f"[`{page.split('/')[-1]}`](../api/{page}.md)" for page in functions]
-        wrong = f"[{number}](../errata.md#{errata[number]})" if number in errata else ""
+        wrong = [f"[{number}](../errata.md#{errata[number]})"] if number in errata else []
+        beside_it = {"lines": lines, "functions": files, "wrong": wrong}
+        below = [f"{say[what]}{say['colon']}{', '.join(links)}" for what, links in beside_it.items() if links]
         title = f"[{_title(name, language)}]({name}.ipynb)"
-        rows.append(f"| {title} | {', '.join(lines)} | {', '.join(files)} | {wrong} |")
-    rows.append(f"| [{EXERCISES[language].splitlines()[0].removeprefix('# ')}](exercises.md) | | | |")
-    rows.append(f"| [{hands.INTRO[language].splitlines()[0].removeprefix('# ')}](../hands/index.md) | | | |")
-    path = [":::{container} path", "", *rows, ":::"]
+        doors.append(_door(_seen(out, name), title, below))
+    for name, text in (("exercises", EXERCISES), ("../hands/index", hands.INTRO)):
+        title, first = text[language].split("\n\n")[:2]
+        seen = hands.thumbnail("feet" if name == "exercises" else "frames")
+        doors.append(_door(seen, f"[{title.removeprefix('# ')}]({name}.md)", [joined(_sentence(first), language)]))
+    path = "\n".join(["::::{container} doors", *doors, "::::"])
     inside = contents([*notebooks.names(), "exercises", "../hands/index"], hidden=True)
-    parts = [joined(INTRO[language], language), "\n".join(path), inside]
+    parts = [joined(INTRO[language], language), path, inside]
     write(out / "chapter" / "index.md", "\n\n".join(parts) + "\n")
     write(out / "chapter" / "exercises.md", _exercises(language))
+
+
+def _door(seen: str, title: str, below: list[str]) -> str:
+    return "\n\n".join([f":::{{container}} door\n```{{raw}} html\n{seen}\n```", f"**{title}**", *below]) + "\n:::"
+
+
+def _seen(out: Path, name: str) -> str:
+    """Return a picture of a notebook that was run."""
+    drawn = [*figures.figures(nbformat.read(out / "chapter" / f"{name}.ipynb", as_version=4))]
+    picture = drawn[min(SHOWN.get(name, 0), len(drawn) - 1)]
+    return figures.image(picture.file, picture.says, link=f"{name}.html")
+
+
+def _sentence(text: str) -> str:
+    """Return the first sentence of a text."""
+    return re.split(r"(?<=[.:])\s|(?<=[。：])", text)[0]
 
 
 def _exercises(language: Language) -> str:

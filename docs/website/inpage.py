@@ -13,13 +13,13 @@ import io
 import json
 import shutil
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import runtime
 
-from .pages import LANGUAGES, ROOT, write
+from .pages import ROOT, write
 
 RUN = Path(__file__).resolve().parent / "run"
 GROUPS = ("base", "matplotlib", "sympy")
@@ -90,9 +90,9 @@ def write_runtime(html: Path) -> None:
     write(target / "licence.txt", LICENCE)
 
 
-def write_downloads(html: Path, names: list[str]) -> None:
+def write_downloads(html: Path, languages: Sequence[str], names: list[str]) -> None:
     """Write the notebooks, without outputs, where the pages' links lead."""
-    for language in LANGUAGES:
+    for language in languages:
         for name in names:
             source = ROOT / "notebooks" / language / f"{name}.ipynb"
             write(html / language / "chapter" / f"{name}.ipynb", source.read_text(encoding="utf-8"))

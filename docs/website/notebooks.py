@@ -19,7 +19,8 @@ from types import ModuleType
 
 import nbformat
 
-from .pages import LANGUAGES, ROOT, write
+from . import figures
+from .pages import ROOT, write
 
 SLOWEST = 120  # s, a notebook, on a machine that does other things too
 
@@ -80,21 +81,31 @@ def kept(path: Path, cache: Path, common: str) -> Path:
     return cache / f"{path.stem}-{key(nbformat.read(path, as_version=4), common)}.ipynb"
 
 
-def write_notebooks(out: dict[str, Path], cache: Path) -> None:
-    """Write the notebooks with their outputs into the trees of both languages."""
+def run_before(path: Path, cache: Path) -> Path | None:
+    """Return the last result of a notebook with the same code, whatever the package was then."""
+
+    def code(file: Path) -> list[str]:
+        return [cell.source for cell in nbformat.read(file, as_version=4).cells if cell.cell_type == "code"]
+
+    there = sorted(cache.glob(f"{path.stem}-*.ipynb"), key=lambda file: file.stat().st_mtime, reverse=True)
+    return next((file for file in there if code(file) == code(path)), None)
+
+
+def write_notebooks(out: dict[str, Path], cache: Path, draft: bool = False) -> None:
+    """Write the notebooks with their outputs into the trees of the languages; a draft takes those of `run_before`."""
     cache.mkdir(parents=True, exist_ok=True)
     common = common_key()
     waiting, results = {}, {}
-    for language, name in itertools.product(LANGUAGES, names()):
+    for language, name in itertools.product(out, names()):
         path = ROOT / "notebooks" / language / f"{name}.ipynb"
-        results[path] = kept(path, cache, common)
+        results[path] = (run_before(path, cache) if draft else None) or kept(path, cache, common)
         if not results[path].exists():
             waiting[path] = results[path]
     with ProcessPoolExecutor(min(2, os.cpu_count() or 1)) as pool:
         list(pool.map(execute, waiting, waiting.values()))
     for path, result in results.items():
         done = with_outputs(nbformat.read(path, as_version=4), nbformat.read(result, as_version=4))
-        write(out[path.parent.name] / "chapter" / path.name, nbformat.writes(done))
+        write(out[path.parent.name] / "chapter" / path.name, nbformat.writes(figures.with_words(done)))
 
 
 def with_outputs(notebook: nbformat.NotebookNode, done: nbformat.NotebookNode) -> nbformat.NotebookNode:

@@ -124,8 +124,8 @@ WORDS = {
         "angular": "angular",
         "linear": "linear",
         "unit": "unit",
-        "keys": "← and → go through the lines, Home and End to the ends, space plays and pauses; choose a body to go to "
-        "its next line.",
+        "keys": "← and → go through the lines, Home and End to the ends, space plays and pauses; choose a body to go "
+        "to its next line.",
     },
     "zh": {
         "lang": "zh-CN",
