@@ -13,6 +13,7 @@ from website import (
     cards,
     chinese,
     crosslinks,
+    folds,
     hands,
     inpage,
     interface,
@@ -122,3 +123,4 @@ def setup(app):
     interface.connect(app, "zh" if CHINESE else "en")
     inpage.connect(app, "zh" if CHINESE else "en", notebooks.names())
     hands.connect(app, "zh" if CHINESE else "en")
+    folds.connect(app, "zh" if CHINESE else "en")

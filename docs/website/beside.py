@@ -121,9 +121,8 @@ def _row(k: int, step: dict[str, Any], part: Lines, language: str) -> str:
 
 def _shown(name: str) -> str:
     """Return the formula that stands for an algorithm: that of its last step that has one."""
-    return (
-        "$" + [step["tex"].strip() for part in read(name)["part"] for step in part["step"] if "tex" in step][-1] + "$"
-    )
+    formulas = [step["tex"].strip() for part in read(name)["part"] for step in part["step"] if "tex" in step]
+    return f"$$\n{formulas[-1]}\n$$"
 
 
 def write_algorithms(out: Path, language: str) -> None:

@@ -1,7 +1,7 @@
 """The pictures of the site: what they show in words, the code that draws them, and the page that has them all.
 
 A picture of a notebook is told, to those who cannot see it, by the heading above it and the words before it; in the
-gallery it stands with the cell that draws it. What the pages of docs/ show is there, too, with the program that made it.
+gallery it stands with the cell that draws it. What the pages of docs/ show is there too, with the program that made it.
 """
 
 from __future__ import annotations
@@ -35,6 +35,8 @@ SIGNS = {
 }
 SIGNS |= {"leftarrow": "←", "lambda": "λ", "omega": "ω", "tau": "τ", "mu": "μ", "boldsymbol": "", "hat": "", "frac": ""}
 MARKS = {"dot": "\u0307", "ddot": "\u0308", "bar": "\u0304"}
+PROGRAMS = ("docs/pictures", "benchmarks", "benchmarks/study")
+"""Where the programs are that make the pictures of docs/pictures."""
 HEADING = re.compile(r"^#{1,4} (.*)$", re.MULTILINE)
 SHOWN = re.compile(r"^!\[([^\]]+)\]\((pictures/([\w]+)\.\w+)\)", re.MULTILINE)
 TEXT = {
@@ -146,16 +148,21 @@ def _folded(code: str, language: str) -> str:
 
 def _of_pages(out: Path, language: str) -> Iterator[str]:
     """Yield the pictures of the pages of docs/, each with the program that made it."""
-    for path, name in pages().items():
+    for path in pages():
         own = ROOT / twin(path, language)
         text = own.read_text(encoding="utf-8") if own.exists() else ""
         for says, file, stem in SHOWN.findall(text):
-            made = [f"{folder}/{stem.split('_')[0]}.py" for folder in ("docs/pictures", "benchmarks")]
-            by = next(MADE[language].format(program) for program in made if (ROOT / program).exists())
-            door = (
-                f":::{{container}} door\n[![{says}]({file})]({path.removeprefix('docs/')})\n\n**{says}**\n\n{by}\n:::"
-            )
-            yield moved(door, "docs/gallery.md", "gallery", out)
+            by = MADE[language].format(_program(stem))
+            seen = f"[![{says}]({file})]({path.removeprefix('docs/')})"
+            door = f":::{{container}} door\n{seen}\n\n**{says}**\n\n{by}\n:::"
+            yield moved(door, twin("docs/gallery.md", language), "gallery", out)
+
+
+def _program(picture: str) -> str:
+    """Return the program that made a picture of docs/pictures: its name begins with that of the program."""
+    programs = [path for folder in PROGRAMS for path in sorted((ROOT / folder).glob("*.py"))]
+    made = next(path for path in programs if f"{picture}_".startswith(f"{path.stem}_"))
+    return made.relative_to(ROOT).as_posix()
 
 
 def write_gallery(out: Path, names: list[str], language: str) -> None:

@@ -12,8 +12,10 @@ import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
+from .digits import with_digits
 from .film import with_films
 from .front import hero, trot
+from .orders import with_drawings
 from .thumbnails import thumbnail
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -72,6 +74,8 @@ def write_pages(out: Path, language: str) -> None:
         there = (ROOT / own).exists()
         text = (ROOT / (own if there else path)).read_text(encoding="utf-8")
         text = moved(text if there else _with_note(text), own if there else path, name, out)
+        for add in (with_digits, with_drawings):
+            text = add(text, language)
         write(out / f"{name}.md", with_films(text, ROOT / path, language))
 
 
