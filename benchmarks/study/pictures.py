@@ -48,7 +48,10 @@ def save(figure: Any, path: Path) -> None:
 
         page = BytesIO()
         figure.savefig(page, dpi=100, format="png")
-        few = Image.open(page).convert("RGB").quantize(128, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        drawn, kind = Image.open(page), Image.Quantize.FASTOCTREE  # the one that keeps what can be seen through
+        if figure.patch.get_alpha() != 0:
+            drawn, kind = drawn.convert("RGB"), Image.Quantize.MAXCOVERAGE
+        few = drawn.quantize(128, kind, dither=Image.Dither.NONE)
         few.save(beside, optimize=True)
 
 
@@ -206,6 +209,8 @@ def _shade_flight(motion: Motion, ax: Any) -> bool:
 
 # ---------------------------------------------------------------- extremes: a square for every cell
 
+ACROSS = 3  # maps side by side: as many as leave room for letters
+INK = "#767676"  # read on white and on black
 KEPT = 17  # the end of the scale of digits: errors below 1e-17 have one colour
 PREDICTED = "tw.accuracy, at least"
 TITLES = {"textbook": "textbook", "fast": "tw.fast", "float32": "textbook, float32", "pinocchio": "Pinocchio"}
@@ -218,13 +223,14 @@ Place = tuple[int, int]
 def draw_map(cells: Sequence[Cell], algorithm: str) -> Any:
     """Draw the map of an algorithm: above one thing at its limit at a time, below two at once, the worst of their ends.
 
-    The colour of a square is the digits kept; it is hatched where an error is raised.
+    The colour of a square is the digits kept; it is hatched where an error is raised. Nothing is painted behind it, and
+    words are grey, so that it can be read on a light page and on a dark one.
     """
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import BoundaryNorm
 
-    figure, colours = _figure(14.0, 8.6), colormaps["cividis"].resampled(KEPT)
+    colours = colormaps["cividis"].resampled(KEPT)
     ways = {
         title: {c.recipe: r for c in cells for r in c.records if (r.quantity, r.way) == (algorithm, way)}
         for way, title in TITLES.items()
@@ -232,23 +238,31 @@ def draw_map(cells: Sequence[Cell], algorithm: str) -> Any:
     known = {recipe: r.estimate for recipe, r in ways["textbook"].items() if r.estimate is not None}
     ways[PREDICTED] = {k: Record("", "", **({"error": x} if x < 1 else {"raised": "unsure"})) for k, x in known.items()}
     ways = {title: found for title, found in ways.items() if found}
-    axes = figure.subplots(2, len(ways), squeeze=False)
+    rows = -(-len(ways) // ACROSS)
+    figure = _figure(11.0, 9.6 * rows + 0.6)
+    figure.patch.set_alpha(0)
+    axes = figure.subplots(2 * rows, ACROSS, squeeze=False)
     widest = max(map(len, DIMENSIONS.values()))
-    for (title, found), above, below in zip(ways.items(), *axes, strict=True):
+    for k, (title, found) in enumerate(ways.items()):
+        above, below = axes[k // ACROSS, k % ACROSS], axes[rows + k // ACROSS, k % ACROSS]
         for y, (name, values) in enumerate(DIMENSIONS.items()):
             for x, value in enumerate(values):
                 _paint(above, (x, y), [found.get(of_value(name, value))], colours, _short(value))
         for y, first in enumerate(ENDS):
             for x, second in enumerate(list(ENDS)[:y]):
                 _paint(below, (x, y), [found.get(recipe) for recipe in of_pair(second, first, full=True)], colours)
-        _frame(above, DIMENSIONS, [""] * widest, labelled=above is axes[0, 0])
-        _frame(below, ENDS, [name.replace("_", " ") for name in ENDS][:-1], labelled=below is axes[1, 0])
-        above.set_title(title, fontsize=10)
-    axes[0, 0].set_ylabel("one thing at a time")
-    axes[1, 0].set_ylabel("two at once, the worst of their ends")
+        _frame(above, DIMENSIONS, [""] * widest, labelled=k % ACROSS == 0)
+        _frame(below, ENDS, [name.replace("_", " ") for name in ENDS][:-1], labelled=k % ACROSS == 0)
+        for ax, what in ((above, "one at a time"), (below, "two at once, the worst of their ends")):
+            ax.set_title(f"{title}\n{what}", fontsize=10, color=INK)
+    for k in range(len(ways), rows * ACROSS):
+        axes[k // ACROSS, k % ACROSS].remove()
+        axes[rows + k // ACROSS, k % ACROSS].remove()
     shown = ScalarMappable(BoundaryNorm(np.arange(KEPT + 1), KEPT), colours)
-    figure.colorbar(shown, ax=axes, shrink=0.6, aspect=40, pad=0.01).set_label("decimal digits kept")
-    figure.suptitle(f"{algorithm}: digits kept; hatched: an error was raised; red: a NaN", fontsize=11)
+    bar = figure.colorbar(shown, ax=figure.axes, location="bottom", shrink=0.6, aspect=40, pad=0.01)
+    bar.set_label("decimal digits kept", color=INK)
+    bar.ax.tick_params(colors=INK)
+    figure.suptitle(f"{algorithm}: digits kept; hatched: an error was raised; red: a NaN", fontsize=12, color=INK)
     return figure
 
 
@@ -268,22 +282,23 @@ def _paint(ax: Any, corner: Place, found: Sequence[Record | None], colours: Any,
         return
     errors = [r.error for r in records if r.error is not None]
     digits = int(np.clip(-np.log10(max([*errors, 1e-17])), 0, KEPT - 1)) if errors else None
-    face = "white" if digits is None else colours(digits)
+    face = "none" if digits is None else colours(digits)
     if any(r.fault for r in records):
         face = COLOURS["vermilion"]
-    hatch, edge = ("/////", COLOURS["grey"]) if any(r.raised for r in records) else (None, "white")
+    hatch, edge = ("/////", COLOURS["grey"]) if any(r.raised for r in records) else (None, "none")
     ax.add_patch(Rectangle(corner, 1, 1, facecolor=face, edgecolor=edge, hatch=hatch, linewidth=0.5))
     dark = digits is not None and digits < KEPT * 0.6
-    style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 5, "color": "white" if dark else "black"}
+    style: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": 7, "color": "white" if dark else "black"}
     if hatch and digits is None and text:
-        style["bbox"] = {"facecolor": "white", "linewidth": 0, "pad": 0.5}
+        style["bbox"] = {"facecolor": "white", "linewidth": 0, "pad": 1}
     ax.text(corner[0] + 0.5, corner[1] + 0.5, text, **style)
 
 
 def _frame(ax: Any, rows: Iterable[str], columns: list[str], *, labelled: bool) -> None:
     rows = [WORDS[name] if labelled else "" for name in rows]
     ax.set(xlim=(0, len(columns)), ylim=(len(rows), 0))
-    ax.set_yticks(np.arange(len(rows)) + 0.5, rows, fontsize=7)
-    ax.set_xticks(np.arange(len(columns)) + 0.5, columns, fontsize=6, rotation=90)
-    ax.tick_params(length=0)
+    ax.set_yticks(np.arange(len(rows)) + 0.5, rows, fontsize=9)
+    ax.set_xticks(np.arange(len(columns)) + 0.5, columns, fontsize=9, rotation=90)
+    ax.tick_params(length=0, colors=INK)
+    ax.patch.set_alpha(0)
     ax.spines[:].set_visible(False)

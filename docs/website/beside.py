@@ -27,6 +27,14 @@ WORDS = {
     "en": ("What it does", "The source: lines {} to {} of `{}`", "Documentation of {}."),
     "zh": ("这一步做什么", "源码：`{2}` 第 {0}–{1} 行", "接口文档见 {}。"),
 }
+FORMULA = {
+    "kinematics": r"V_i = X_i V_{\lambda(i)} + S_i\,\dot q_i",
+    "rnea": r"F_{\lambda(i)} \leftarrow F_{\lambda(i)} + X_i^T F_i",
+    "aba": r"\ddot q_i = D_i^{-1} (u_i - U_i^T a'_i)",
+    "crba": r"M_{ji} = S_j^T F_{ji}",
+    "centroidal": r"h_G = A_G\, v",
+}
+"""What stands for an algorithm on the page that leads to all."""
 LINES = {"en": "## The lines", "zh": "## 逐行解释"}
 
 
@@ -119,19 +127,13 @@ def _row(k: int, step: dict[str, Any], part: Lines, language: str) -> str:
     return f"::::{{container}} step\n{say}\n:::{{container}} code\n{listing}\n:::\n::::"
 
 
-def _shown(name: str) -> str:
-    """Return the formula that stands for an algorithm: that of its last step that has one."""
-    formulas = [step["tex"].strip() for part in read(name)["part"] for step in part["step"] if "tex" in step]
-    return f"$$\n{formulas[-1]}\n$$"
-
-
 def write_algorithms(out: Path, language: str) -> None:
     """Write the page of every algorithm, and the doors to them into the page that leads to them."""
     index, doors = out / "algorithms" / "index.md", ["::::{container} doors"]
     for name in names():
         title = f"**[{read(name)['title'][language]}]({name}.md)**"
         drawn = f"```{{raw}} html\n{sketch(name, language)}```"
-        doors.append("\n\n".join([f":::{{container}} door\n{drawn}", title, _shown(name)]) + "\n:::")
+        doors.append("\n\n".join([f":::{{container}} door\n{drawn}", title, f"$$\n{FORMULA[name]}\n$$"]) + "\n:::")
         write(out / "algorithms" / f"{name}.md", page(name, language))
     text = index.read_text(encoding="utf-8")
     write(index, text.replace("<!-- doors -->", "\n".join([*doors, "::::"])))

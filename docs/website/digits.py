@@ -136,12 +136,12 @@ def _across(seconds: float) -> float:
 
 
 def time_of(seconds: float) -> str:
-    """Return a time to three digits, in its unit.
+    r"""Return a time to three digits, in its unit.
 
     >>> time_of(1.04e-6), time_of(2.5e-5), time_of(0.1)
-    ('1.04 µs', '25 µs', '100 ms')
+    ('1.04\xa0µs', '25\xa0µs', '100\xa0ms')
     """
     unit, size = next(
         pair for pair in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)) if seconds >= 0.999 * pair[1]
     )
-    return f"{seconds / size:.3g} {unit}"
+    return f"{seconds / size:.3g}\u00a0{unit}"

@@ -1,6 +1,6 @@
 // What scrolls can be reached and scrolled with the keyboard: formulas, tables, listings, once they are set.
 function reachable() {
-  for (const box of document.querySelectorAll(".math, mjx-container, pre, .pst-scrollable-table-container, .output_area")) {
+  for (const box of document.querySelectorAll(".math, mjx-container, pre, .pst-scrollable-table-container, .output_area, .digits")) {
     if (box.scrollWidth > box.clientWidth || box.scrollHeight > box.clientHeight + 1) box.tabIndex = 0;
     else if (box.tabIndex === 0) box.removeAttribute("tabindex");
   }
@@ -40,7 +40,7 @@ function find(box) {
   field.oninput = () => {
     const words = field.value.toLowerCase().split(/\s+/).filter(Boolean);
     entries.forEach((entry, k) => (entry.hidden = !words.every((word) => texts[k].includes(word))));
-    for (const section of document.querySelectorAll("section:has(.entry)")) {
+    for (const section of box.parentElement.querySelectorAll("section")) {
       const inside = entries.filter((entry) => section.contains(entry));
       section.hidden = words.length > 0 && !inside.some((entry) => !entry.hidden);
     }
