@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
-MARK = re.compile(r"<!-- digits: (\w+) -->")
+MARK = re.compile(r"^<!-- digits: (\w+) -->$", re.MULTILINE)
 NUMBERS = ("float32", "float64", "longdouble", "20 digits", "double-double", "50 digits")
 COLOUR = {"tw.fast": "#d55e00", "tw.compile": "#e69f00", "tw.": "#3a8fc8", "newton": "#009e73", "mpmath": "#009e73"}
 OTHER = "#888"

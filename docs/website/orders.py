@@ -14,7 +14,7 @@ from typing import NamedTuple
 from .thumbnails import table
 
 PAGE = Path(__file__).resolve().parents[1] / "conventions.md"
-MARK = "<!-- drawings -->"
+MARK = re.compile(r"^<!-- drawings -->$", re.MULTILINE)
 TABLES = (5, 6)
 """The sections of the page that say the order of q, and the order and the axes of v."""
 ANGULAR, LINEAR, REAL = "#d55e00", "#3a8fc8", "#009e73"
@@ -72,7 +72,8 @@ def _cells(text: str) -> list[str]:
 def with_drawings(text: str, language: str) -> str:
     """Return the text of a page with the drawings."""
     drawn = "\n".join(f'<div class="door">{drawing(name, order, language)}</div>' for name, order in orders().items())
-    return text.replace(MARK, f'```{{raw}} html\n<div class="doors orders">{drawn}</div>\n```')
+    block = f'```{{raw}} html\n<div class="doors orders">{drawn}</div>\n```'
+    return MARK.sub(lambda _: block, text)
 
 
 def drawing(name: str, order: Order, language: str) -> str:
