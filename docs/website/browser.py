@@ -40,7 +40,12 @@ FORMULAS = """async () => {
   const left = [...document.querySelectorAll(".math")].filter((e) => !e.querySelector("mjx-container svg"));
   return [left.length, document.querySelectorAll("mjx-merror, [data-mjx-error]").length];
 }"""
-HIDDEN = "() => [...document.images].filter((i) => !(i.complete && i.naturalWidth)).map((i) => i.getAttribute('src'))"
+HIDDEN = """async () => {
+  const images = [...document.images], done = (i) => new Promise((go) => (i.onload = i.onerror = go));
+  images.forEach((i) => (i.loading = "eager"));  // those further down as well
+  await Promise.all(images.filter((i) => !i.complete).map(done));
+  return images.filter((i) => !i.naturalWidth).map((i) => i.getAttribute("src"));
+}"""
 SHIFT = """() => new Promise((done) => {
   let sum = 0;
   new PerformanceObserver((list) => list.getEntries().forEach((entry) => (sum += entry.value)))
