@@ -342,3 +342,5 @@ def test_what_cannot_be_traced_is_said(arguments, error, said):
 def test_the_mass_matrix_refuses_wrenches_that_could_change_nothing():
     with pytest.raises(ValueError, match="f_ext: expected none, since neither M nor A_G depends on it"):
         tw.trace(shared("pendulum"), "crba", [0.0], f_ext=np.zeros((2, 6)))
+    with pytest.raises(ValueError, match="f_ext: expected none, since no placement or motion depends on it"):
+        tw.trace(shared("pendulum"), "forward_kinematics", [0.0], [0.0], [0.0], f_ext=np.zeros((2, 6)))

@@ -167,14 +167,14 @@ class _Motion(NamedTuple):
 
 def _kinematic_terms(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike) -> _Motion:
     found = forward_kinematics(model, q, v, a)
-    assert found.twist is not None
-    assert found.acceleration is not None
-    return _Motion([T.matrix() for T in found.placement], [*found.twist], [*found.acceleration])
+    V, A = (np.asarray(x) for x in (found.twist, found.acceleration))
+    return _Motion([T.matrix() for T in found.placement], [*V], [*A])
 
 
 def _kinematic_rows(model: Model, tree: Tree, x: _Motion) -> list[BodyRecord]:
     """49.3 and 49.6: placements, twists and accelerations outward."""
-    return [_row(model, i, {}, {"T": x.T[i], "V": x.V[i], "A": x.A[i]}) for i in range(model.nbodies)]
+    found = [dict(zip(_Motion._fields, values)) for values in zip(*x, strict=True)]
+    return [_row(model, i, {}, found[i]) for i in (0, *tree.outward)]
 
 
 def _inward(X: Array, wrench: Array) -> Array:
