@@ -68,10 +68,14 @@ def stage(languages: Sequence[str], draft: bool, done: Callable[[str], None]) ->
     shutil.rmtree(new)
 
 
-def sphinx(language: str) -> subprocess.Popen[bytes]:
-    """Start Sphinx for a language; the other one is built at the same time."""
+def sphinx(language: str, draft: bool) -> subprocess.Popen[bytes]:
+    """Start Sphinx for a language; the other one is built at the same time.
+
+    All pages are written, but for a draft: of those that are not, its search would lose the entries of the index.
+    """
     command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "--keep-going", "-c", "docs"]
     command += ["-d", f"{OUT}/doctrees/{language}", f"{OUT}/pages/{language}", f"{OUT}/html/{language}"]
+    command += [] if draft else ["--write-all"]
     environment = os.environ | {"SITE_LANGUAGE": language, "SITE_STATIC": str(OUT / "static")}
     return subprocess.Popen(command, cwd=pages.ROOT, env=environment)
 
@@ -94,7 +98,7 @@ def main() -> int:
 
     stage(languages, bool(given.draft), done)
     done("pages written")
-    runs = [sphinx(language) for language in languages]
+    runs = [sphinx(language, bool(given.draft)) for language in languages]
     if sum(run.wait() for run in runs):  # wait for both
         print("the site was not built: see the warnings above", file=sys.stderr)
         return 1
