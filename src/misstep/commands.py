@@ -68,6 +68,7 @@ def register(parser: Any, course: str) -> None:
 
     add = action(run_start, "write the skeletons into DIR; what is there stays as it is")
     add("dir", metavar="DIR", help="a folder for your answers, made if need be, such as `answers`")
+    add("--no-cure", dest="cure", action="store_false", help="messages never say what to write instead")
     add = action(run_status, "check all answers and show the progress by section")
     add("dir", nargs="?", default=".", metavar="DIR")
     add("--time-limit", type=_seconds, metavar="S", help="seconds for one call of a function; 0 for none (10)")
@@ -76,7 +77,7 @@ def register(parser: Any, course: str) -> None:
     add("name", metavar="FUNCTION", help="as in the skeletons")
     add("number", type=int, nargs="?", default=0, metavar="K", help="which case, counted from 0 (0)")
     add("--seed", type=at_least(0), default=0, metavar="N", help="of the random cases (0)")
-    add_hint = action(run_hint, "the next hint for an exercise")
+    add_hint = action(run_hint, "the next hint for a function; of a wrong answer, which slip it is")
     add_solution = action(run_solution, "a solution of an exercise")
     for add in (add_hint, add_solution):
         add("id", metavar="ID", help="as 49.3.1, or the name of a function")
@@ -119,7 +120,7 @@ def run_start(args: argparse.Namespace) -> int:
     """Write the skeletons."""
     from .skeletons import start
 
-    new, kept = start(_course(args), args.dir, language=args.language)
+    new, kept = start(_course(args), args.dir, language=args.language, cure=args.cure)
     language = _language(args, args.dir)
     for label, paths in ((Text("new", "新增"), new), (Text("kept as it is", "保持不变"), kept)):
         for path in paths:

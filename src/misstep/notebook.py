@@ -13,7 +13,7 @@ from .exercise import Exercise, Part
 from .formulas import judge_formula
 from .isolation import TIME_LIMIT_S, drawn, judged
 from .text import Language, say
-from .verdict import State
+from .verdict import LEVELS, State
 from .workbook import Workbook, verdict_on_words
 
 __all__ = ["check", "checked"]
@@ -32,6 +32,7 @@ def check(
     language: Language | None = None,
     seed: int | None = None,
     time_limit: float = TIME_LIMIT_S,
+    level: int = 1,
     caller: Mapping[str, Any] | None = None,
     formulas: Mapping[str, str] | None = None,
 ) -> Checked:
@@ -40,6 +41,8 @@ def check(
     A course's own `check` explains the arguments. `formulas` are by the names of the functions.
     """
     exercise, formulas, seed = course.exercise(number), formulas or {}, drawn(seed)
+    if level not in LEVELS:
+        raise CourseError(f"level: expected one of {LEVELS}, got {level!r}")
     known = {part.name: part for part in exercise.parts}
     given = functions
     if not functions and not formulas and words is None:
@@ -57,8 +60,11 @@ def check(
     if words is not None:
         verdicts[WORDS] = verdict_on_words(exercise, words)
     _ASKED.update({} if language is None else {"language": language})
-    language = _ASKED.get("language") or Workbook(course, ".").language
-    return _with_progress(Checked(exercise, verdicts, words, language))
+    book = Workbook(course, ".", language=_ASKED.get("language"))
+    for name in verdicts.keys() & known.keys():
+        book.remember_hints(exercise, known[name], verdicts[name].stages(min(level, book.max_level)))
+    more = {"level": min(level, book.max_level), "max_level": book.max_level, "hints": book.hints(exercise)}
+    return _with_progress(Checked(exercise, verdicts, words, book.language, **more))
 
 
 def checked(book: Workbook, exercise: Exercise) -> Checked:

@@ -20,7 +20,7 @@ PARTS = {p.name: p for e in COURSE.exercises for p in e.parts if not e.needs}
 def message(name, function):
     verdict = judge(*COURSE.find_part(name), function)
     assert verdict.state == "wrong"
-    return " ".join(verdict.message("en").split())
+    return " ".join(verdict.message("en", level=3).split())
 
 
 def orientations(name, arguments):
@@ -63,7 +63,7 @@ def test_a_formula_that_divides_by_the_angle_is_met():
         T[:3, 3] = q[:3]
         return T
 
-    said = judge(*COURSE.find_part("base_pose"), base_pose, search=False).message("en")
+    said = judge(*COURSE.find_part("base_pose"), base_pose, search=False).message("en", level=3)
     assert "entries that are not finite numbers" in " ".join(said.split())
 
 

@@ -51,14 +51,15 @@ def test_a_wrong_answer_has_the_message_and_the_numbers():
     assert plain.report("en") in repr(checked)
     text = html(checked)
     assert text.count('class="tw-bad"') == text.count('class="tw-good"') == 3
-    assert "the translation has the wrong sign" in text
+    assert "the translation has the wrong sign" in text[text.index("<details><summary>hint 1 of 4") :]
+    assert "the translation has the wrong sign" not in plain.message("en")
     assert not checked.right
     assert checked.points == 0
 
 
 def test_the_hints_come_one_click_at_a_time():
     text = html(check("49.0.2", act, language="en", time_limit=0))
-    first, second = (text.index(f"hint {k} of 2") for k in (1, 2))
+    first, second = (text.index(f"hint {k} of 4") for k in (1, 2))
     assert "</details>" not in text[first:second]  # the second is inside the first
     assert "<details open" not in text
     assert "twistwrench exercises hint" not in text  # they are below

@@ -64,7 +64,7 @@ def test_another_form_of_the_same_formula_is_right():
 def test_what_cannot_be_read_is_explained(name, formula, said):
     verdict = judged(name, formula)
     assert verdict.state == "wrong"
-    assert said in verdict.message("en")
+    assert said in verdict.message("en", level=3)
 
 
 def test_a_formula_is_checked_in_a_cell():

@@ -1,4 +1,5 @@
-"""The catalogue of slips: a TOML file for each kind, a table for each slip."""
+"""The catalogue of slips: a TOML file for each kind of exercise, a table for each slip; ``kinds.toml`` has the words for
+what kind of slip it is."""
 
 from __future__ import annotations
 
@@ -11,9 +12,10 @@ FILES = (
     *("basics", "order", "algebra", "frames", "contact", "inertia", "bodies", "dynamics"),
     *("recursion", "tree", "measuring", "floating", "standing", "pipeline", "pinocchio"),
 )
+KINDS = {key: as_text(entry) for key, entry in read(__name__, "kinds").items()}
 
 SLIPS = {
-    key: Slip(as_text(entry["title"]), as_text(entry["why"]), entry["section"])
+    key: Slip(as_text(entry["title"]), as_text(entry["why"]), entry["section"], KINDS[entry["kind"]])
     for name in FILES
     for key, entry in read(__name__, name).items()
 }
