@@ -59,7 +59,7 @@ KINDS = {
 """What kind of slip an edit undoes, by its rule."""
 
 KIND = Text("Kind of slip: {kinds}.", "错误类型：{kinds}。")
-LOOK = Text("Look at line {line}.", "请看第 {line} 行。")
+LOOK = Text("Look at {lines}.", "请看{lines}。")
 ANY = Text("Your numbers fit any of these slips:", "你的数值等于犯下以下任一错误的结果：")
 OWN = Text("Line {line}: with {edit}, it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。")
 OWN_ANY = Text("Each of these changes alone makes it right{cases}:", "下列改动任取其一，{cases}就正确：")
@@ -268,8 +268,9 @@ class _Diagnoser:
         if len(each) > 1:
             lines = [OWN_ANY.fill(cases=cases)]
             lines += [say("  - line {line}: {edit}", "  - 第 {line} 行：{edit}", **x) for x in each]
-        look = LOOK.fill(line=Text(*(join.join(str(x["line"]) for x in each) for join in (" or ", " 或 "))))
-        return self._explained("line", self.own.whole[:MAX_NAMED], help=[look], cure=lines)
+        numbers = dict.fromkeys(x["line"] for x in each)
+        look = Text(" or ".join(f"line {n}" for n in numbers), "或".join(f"第 {n} 行" for n in numbers))
+        return self._explained("line", self.own.whole[:MAX_NAMED], help=[LOOK.fill(lines=look)], cure=lines)
 
     def _of_reference(self) -> Verdict | None:
         edit = next((x.edit for x in self.reference.whole if x.edit), None)
