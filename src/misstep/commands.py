@@ -91,7 +91,6 @@ def register(parser: Any, course: str) -> None:
     add("--only", nargs="+", default=[], metavar="ID", help="exercises or sections: 49.6 49.7.1 (all)")
     add("--csv", metavar="FILE", help="a row for each function of each student")
     add("--html", metavar="FILE", help="a page: points, messages, words beside the model answer")
-    add("--junit", metavar="FILE", help="a test suite for each student")
     add("--seed", type=at_least(0), metavar="N", help="of the random cases, the same for all; else drawn")
     add("--timeout", type=_seconds, metavar="S", help="seconds for one call of a function (10)")
     add("--jobs", type=at_least(1), metavar="N", help="folders at a time (one for each processor)")
@@ -184,13 +183,13 @@ def run_list(args: argparse.Namespace) -> int:
 
 
 def run_grade(args: argparse.Namespace) -> int:
-    """Grade folders, print a table, and write what is asked for: the CSV after each student, the others at the end."""
+    """Grade folders, print a table, and write what is asked for: the CSV after each student, the page at the end."""
     from .grading import grade
     from .isolation import TIME_LIMIT_S, drawn
-    from .sheets import as_csv, as_html, as_junit, as_table
+    from .sheets import as_csv, as_html, as_table
 
     seed, language = drawn(args.seed), args.language or default_language()
-    for option in ("csv", "html", "junit"):
+    for option in ("csv", "html"):
         path = getattr(args, option)
         check_writable(f"--{option}", None if path is None else Path(path))
     so_far: list[Graded] = []
@@ -206,8 +205,7 @@ def run_grade(args: argparse.Namespace) -> int:
     try:
         grade(_course(args), args.folders, language=language, ended=ended, **how)
     finally:
-        for path, made in ((args.html, as_html), (args.junit, as_junit)):
-            if path is not None and so_far:
-                write_text(path, made(so_far, seed, language))
+        if args.html is not None and so_far:
+            write_text(args.html, as_html(so_far, seed, language))
     print(as_table(so_far, seed, language))
     return 0

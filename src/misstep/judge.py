@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .calls import copied, shown
+from .calls import TooLong, copied, shown
 from .cases import cases, every_case, further_cases, special_cases
 from .compare import agree, copied_results, is_one_array, plain, to_do, unchanged
 from .diagnose import diagnose
@@ -24,11 +24,12 @@ from .search import Arguments
 from .text import Text, say
 from .verdict import Case, Verdict, failing_case, headed
 
-__all__ = ["at_line", "judge"]
+__all__ = ["ENDLESS", "at_line", "judge"]
 
 Function = Callable[..., Any]
 Watch = Callable[[], AbstractContextManager[object]]
 
+ENDLESS = Text("It did not finish in {s:g} s: a loop that never ends?", "{s:g} 秒内没有结束：是不是死循环？")
 NEEDS = Text("It needs the package {name}, which is not installed here.", "需要 {name}，此处没有安装。")
 CHANGED = Text("It changes its argument `{name}`: work on a copy.", "它修改了参数 `{name}`：请在副本上运算。")
 CHANGED_TERM = Text(
@@ -91,6 +92,8 @@ class _Raised(Exception):
     def lines(self) -> list[Text]:
         """Report what was raised, and at which line of the student's file."""
         lines = [say("It stopped with {error}", "运行出错：{error}", error=shown(self.error))]
+        if isinstance(self.error, TooLong):
+            lines = [ENDLESS.fill(s=self.error.seconds)]
         own = [f for f in traceback.extract_tb(self.error.__traceback__) if not is_ours(f.filename)]
         frame = next((f for f in reversed(own) if f.line), own[-1] if own else None)  # generated code shows no line
         return lines if frame is None else [*lines, *at_line(frame.filename, frame.lineno, frame.line)]
@@ -105,6 +108,7 @@ class _Trial:
         self.exercise, self.course, self.part, self.function = exercise, exercise.course, part, function
         self.seed, self.watch, self.search = seed, watch, search
         self.tried: list[Arguments] = []
+        self.current: Arguments = ()
         self.answers: list[Any] = []
         self.expected: list[Any] = []
         self.right: list[bool] = []
@@ -112,8 +116,16 @@ class _Trial:
 
     def verdict(self) -> Verdict:
         """Try the function in all cases, and report what is wrong."""
+        try:
+            return self._verdict()
+        except TooLong as late:
+            self.tried.append(self.current)
+            return self._headed(*_Raised(late).lines(), case=self._case(-1), how="located")
+
+    def _verdict(self) -> Verdict:
         broken = broken_rules(self.course.rules, self.part, self.function)  # before anything is run
         for arguments in self._cases():
+            self.current = arguments
             try:
                 ended = self._try(arguments)
             except NotImplementedError:

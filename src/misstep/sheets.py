@@ -1,4 +1,4 @@
-"""What an instructor gets of a graded class: a table, a CSV, a page, and JUnit's XML."""
+"""What an instructor gets of a graded class: a table, a CSV, and a page."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import csv
 import io
 from collections.abc import Iterator, Sequence
 from html import escape
-from xml.etree.ElementTree import Element, SubElement, tostring
 
 from .checked import STYLE, WORDS, Checked, verdict_html
 from .exercise import Exercise
@@ -14,7 +13,7 @@ from .grading import Graded
 from .text import Language, Text, columns, say
 from .verdict import LEVELS, Verdict
 
-__all__ = ["as_csv", "as_html", "as_junit", "as_table"]
+__all__ = ["as_csv", "as_html", "as_table"]
 
 HEADER = "student exercise function state points of hints solution slips how reason words seed"
 HEADS = (Text("student", "学生"), Text("points", "得分"), Text("hints", "提示"), Text("solutions", "看过解答"))
@@ -108,30 +107,6 @@ def _reason(verdict: Verdict, language: Language) -> str:
     found = [line.of(language).strip() for line in verdict.help or verdict.cure or verdict.lines[1:]]
     last = next((k for k, line in enumerate(found) if not line.endswith((":", "："))), 0)
     return " ".join(found[: last + 1])
-
-
-def as_junit(found: Sequence[Graded], seed: int, language: Language) -> str:
-    """Return JUnit's XML: a suite for each student, whose name is also the class of each of the tests."""
-    root = Element("testsuites", name=f"exercises, seed {seed}")
-    for one in found:
-        student = _printable(one.student)
-        verdicts = [(n, name, v) for n, mark in one.marks.items() for name, v in mark.functions.items()]
-        wrong, to_do = (str(sum(v.state == state for *_, v in verdicts)) for state in ("wrong", "to do"))
-        counts = {"tests": str(len(verdicts)), "failures": wrong, "skipped": to_do, "errors": "0"}
-        suite = SubElement(root, "testsuite", {"name": student, **counts, "time": f"{one.seconds:.3f}"})
-        for number, name, verdict in verdicts:
-            test = SubElement(suite, "testcase", classname=student, name=f"{number.replace('.', '_')}-{name}")
-            if verdict.state == "wrong":
-                failure = SubElement(test, "failure", message=_printable(_reason(verdict, language)))
-                failure.text = _printable(verdict.report(language, LEVELS[-1]))
-            elif verdict.state == "to do":
-                SubElement(test, "skipped", message=Text("to do", "未做").of(language))
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(root, encoding="unicode") + "\n"
-
-
-def _printable(text: str) -> str:
-    """Drop characters that XML cannot hold."""
-    return "".join(c for c in text if c in "\n\t" or (c >= " " and c not in "\ufffe\uffff"))
 
 
 # ---------------------------------------------------------------- the page

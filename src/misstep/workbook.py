@@ -24,7 +24,6 @@ from .course import Course
 from .errors import CourseError
 from .exercise import Exercise, Part
 from .files import write_text
-from .formulas import judge_formula, typed
 from .judge import judge
 from .rules import is_reference, reference
 from .text import Language, Text, default_language
@@ -209,8 +208,6 @@ class Workbook:
             verdict = headed(exercise, part, module)
             return Unread("wrong", verdict.lines) if path.exists() else Verdict("to do", verdict.lines)
         function = vars(module).get(part.name)
-        if isinstance(function, str):
-            return judge_formula(exercise, part, function, seed=self.seed)
         if not callable(function):
             return headed(exercise, part, NO_FUNCTION.fill(name=part.name, file=path.name))
         return self.judge_function(exercise, part, function)
@@ -246,8 +243,7 @@ class Workbook:
         exercise, part = self.course.find_part(name)
         module = self.module(exercise.section)
         if name not in self._judging and not isinstance(module, Text) and self.verdict(exercise, part).state == "done":
-            found = vars(module)[name]
-            function: Callable[..., Any] = typed(part, found) if isinstance(found, str) else found
+            function: Callable[..., Any] = vars(module)[name]
             return function
         self.borrowed.add(name)
         return part.solution
@@ -313,5 +309,4 @@ def offered(name: str, book: Workbook) -> Callable[..., Any]:
         return book.best(name)(*arguments, **named)
 
     function.__name__, function.__doc__ = name, part.doc.en
-    vars(function).update(mine=name, folder=book.folder, course=book.course.module)
     return function

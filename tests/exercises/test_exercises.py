@@ -80,7 +80,13 @@ def test_functions_have_names_of_their_own():
 def texts(e):
     yield from (e.title, e.text, *([e.answer] if e.answer else []))
     for part in e.parts:
-        yield from (part.doc, *part.hints, *(p.text for p in part.properties), *part.reasons.values(), *part.titles.values())
+        yield from (
+            part.doc,
+            *part.hints,
+            *(p.text for p in part.properties),
+            *part.reasons.values(),
+            *part.titles.values(),
+        )
 
 
 @pytest.mark.parametrize("e", HERE, ids=lambda e: e.id)

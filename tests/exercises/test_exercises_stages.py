@@ -81,7 +81,9 @@ def test_hints_of_a_wrong_answer_begin_with_the_slip_and_end_with_the_cure(folde
     assert hint("act", folder, again=True) == said[-1] == hint("act", folder)
     write_again = (folder / "ex_49_0.py").read_text(encoding="utf-8").replace(ACT, "return R.T @ x + p")
     (folder / "ex_49_0.py").write_text(write_again, encoding="utf-8")
-    assert SLIPS["rotation-transposed"].title.en in hint("act", folder).replace("\n", " ")  # another slip: from its start
+    assert SLIPS["rotation-transposed"].title.en in hint("act", folder).replace(
+        "\n", " "
+    )  # another slip: from its start
 
 
 def test_what_was_asked_for_is_counted_for_each_function(folder, monkeypatch):
@@ -119,7 +121,9 @@ def test_a_cell_folds_what_can_be_asked_for():
     texts = ladder(found.exercise.part("act"), found.verdicts["act"], 3)
     html = found._repr_html_()
     assert html.count("<details><summary>hint ") == len(texts)
-    assert html.index("Kind of slip: sign.") < html.index("<details><summary>hint 1") < html.index("the translation has")
+    assert (
+        html.index("Kind of slip: sign.") < html.index("<details><summary>hint 1") < html.index("the translation has")
+    )
     assert isinstance(found, Checked)
 
 

@@ -79,7 +79,6 @@ def check(
     seed: int | None = None,
     time_limit: float = TIME_LIMIT_S,
     level: int = 1,
-    **formulas: str,
 ) -> Checked:
     """Check an exercise where it is written: in a notebook, a script or a shell.
 
@@ -97,12 +96,10 @@ def check(
     seed : int, optional
         Of the random cases; drawn anew unless given.
     time_limit : float
-        Seconds for one call, in a process of its own; 0 for none, and no other process.
+        Seconds for one call; 0 for none.
     level : {1, 2, 3}
         How much is told of a wrong answer: where it is wrong and what kind of slip it is; also which slip, or the line
         to look at; also what to write instead. What is told beyond 1 counts as hints in a folder with the exercise.
-    formulas : str
-        Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them.
 
     Returns
     -------
@@ -136,7 +133,6 @@ def check(
         time_limit=time_limit,
         level=level,
         caller=sys._getframe(1).f_globals,
-        formulas=formulas,
     )
 
 

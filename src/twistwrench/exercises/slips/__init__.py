@@ -1,5 +1,4 @@
-"""The catalogue of slips: a TOML file for each kind of exercise, a table for each slip; ``kinds.toml`` has the words for
-what kind of slip it is."""
+"""The catalogue of slips: TOML files with a table for each slip; `kinds` has a word for what kind of slip each is."""
 
 from __future__ import annotations
 
