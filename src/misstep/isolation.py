@@ -23,7 +23,7 @@ from .text import Language, Text, say
 from .verdict import Verdict, failing_case, headed
 from .workbook import Workbook, content
 
-__all__ = ["TIME_LIMIT_S", "drawn", "not_judged", "opened"]
+__all__ = ["TIME_LIMIT_S", "checked_limit", "drawn", "not_judged", "opened"]
 
 TIME_LIMIT_S = 10.0  # for one call of a function, and for reading a file; the longest of the references takes 0.1 s
 
@@ -35,6 +35,13 @@ def drawn(seed: int | None) -> int:
     if seed is not None and seed < 0:
         raise CourseError(f"seed: expected a whole number, 0 or more, got {seed}")
     return secrets.randbelow(10**6) if seed is None else seed
+
+
+def checked_limit(time_limit: float) -> float:
+    """Return a time limit that is none or some seconds."""
+    if not time_limit >= 0:
+        raise CourseError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
+    return time_limit
 
 
 def not_judged(exercise: Exercise, part: Part, why: object) -> Verdict:
@@ -58,9 +65,8 @@ def opened(
     A time limit of 0 is none, and no other process: a debugger needs that. What the other process prints goes to
     `printed`, or nowhere. The other arguments are those of `Workbook`; the seed is drawn unless given.
     """
-    if not time_limit >= 0:
-        raise CourseError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
-    if not time_limit or not sys.executable or sys.platform == "emscripten":  # a browser has no other process
+    has_none = not sys.executable or sys.platform == "emscripten"  # a browser has no other process
+    if not checked_limit(time_limit) or has_none:
         yield Workbook(course, folder, language=language, seed=drawn(seed), files=files)
         return
     book = _Isolated(course, folder, language=language, seed=drawn(seed), files=files)

@@ -11,7 +11,7 @@ from .checked import WORDS, Checked
 from .course import Course
 from .errors import CourseError, check_known
 from .exercise import Exercise, Part
-from .isolation import TIME_LIMIT_S, drawn
+from .isolation import TIME_LIMIT_S, checked_limit, drawn
 from .text import Language, say
 from .verdict import LEVELS, State
 from .workbook import Workbook, verdict_on_words
@@ -51,7 +51,8 @@ def check(
             raise CourseError(f"check: {expected}, got none, and none is defined here")
     _ASKED.update({} if language is None else {"language": language})
     book = Workbook(course, ".", language=_ASKED.get("language"), seed=drawn(seed))
-    book.watch = lambda name: interrupted(time_limit)
+    limit = checked_limit(time_limit)
+    book.watch = lambda name: interrupted(limit)
     verdicts = {}
     for function in given:
         part = _part(exercise, known, function, alone=len(functions) == 1)

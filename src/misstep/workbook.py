@@ -309,4 +309,5 @@ def offered(name: str, book: Workbook) -> Callable[..., Any]:
         return book.best(name)(*arguments, **named)
 
     function.__name__, function.__doc__ = name, part.doc.en
+    vars(function)["mine"] = name
     return function
