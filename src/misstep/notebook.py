@@ -59,10 +59,11 @@ def check(
         verdicts[part.name] = book.judge_function(exercise, part, function)
     if words is not None:
         verdicts[WORDS] = verdict_on_words(exercise, words)
+    level = min(level, book.max_level)
     for name in verdicts.keys() & known.keys():
-        book.remember_hints(exercise, known[name], verdicts[name].stages(min(level, book.max_level)))
-    more = {"level": min(level, book.max_level), "max_level": book.max_level, "hints": book.hints(exercise)}
-    return _with_progress(Checked(exercise, verdicts, words, book.language, **more))
+        book.remember_hints(exercise, known[name], verdicts[name].stages(level))
+    found = Checked(exercise, verdicts, words, book.language, level=level, max_level=book.max_level)
+    return _with_progress(replace(found, hints=book.hints(exercise)))
 
 
 def checked(book: Workbook, exercise: Exercise) -> Checked:

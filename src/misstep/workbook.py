@@ -233,8 +233,15 @@ class Workbook:
         if exercise.answer is not None:
             verdicts[WORDS] = self.verdict_in_words(exercise)
         words = None if exercise.answer is None else self.words(exercise)
-        used = {"hints": self.hints(exercise), "solution": exercise.id in self.state["solutions"]}
-        return Checked(exercise, verdicts, words, self.language, max_level=self.max_level, **used)
+        return Checked(
+            exercise,
+            verdicts,
+            words,
+            self.language,
+            max_level=self.max_level,
+            hints=self.hints(exercise),
+            solution=exercise.id in self.state["solutions"],
+        )
 
     def best(self, name: str) -> Callable[..., Any]:
         """Return the student's function where it is right, the reference where it is not yet."""
