@@ -36,6 +36,10 @@ NO_HABITS = Habits()
 
 EDITS = {
     "replace": Text("`{after}` in place of `{before}`", "用 `{after}` 代替 `{before}`"),
+    "in loop": Text("`{before}` in the loop, not before it", "把 `{before}` 放进循环之内"),
+    "after loop": Text("`{before}` after the loop, not in it", "把 `{before}` 放到循环之后"),
+    "sum": Text("`{before}` added up in the loop, from zero", "在循环中从零开始累加 `{before}`"),
+    "separate": Text("an array for each name in `{before}`", "`{before}` 中每个名字各建一个数组"),
     "drop": Text("`{before}` left out", "去掉 `{before}`"),
 }
 """What an edit does, by its `how`."""

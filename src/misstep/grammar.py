@@ -95,6 +95,15 @@ REPEATABLE = ("sign", "turn", "drop", "name", "index", "number", "operator")
 MAX_REPEATED = 5  # places with the same text of which each pair is tried; of more only all
 
 
+class Rewrite(NamedTuple):
+    """A node in place of another, where text beside text does not show what it does: how, to which line."""
+
+    new: Any
+    how: str
+    text: str
+    line: Any = None
+
+
 class Edit(NamedTuple):
     """A small change of a program: by which rule, what is put where, and how its line read before and reads after.
 
@@ -150,6 +159,10 @@ def _repeated(alike: Any, *, pairs: bool) -> Iterator[Edit]:
 
 def _made(rule: str, place: Place, new: Any) -> Edit:
     """Return an edit with the smallest text around it that stands only once in its statement."""
+    if isinstance(new, Rewrite):
+        locate(new.new, place.node)
+        line = getattr(new.line or place.node, "lineno", 0)
+        return Edit(rule, (Change(place, new.new),), line, new.text, "", new.how)
     statement = next((x for x in (place.node, *reversed(place.parents)) if isinstance(x, ast.stmt)), place.node)
     whole, around = text_of(statement), place.node
     for outer in reversed(place.parents):
@@ -304,6 +317,9 @@ def _is_term(place: Place) -> bool:
 def own_array(context: Context, place: Place) -> Iterator[Any]:
     """Make an array for each name that stands for one."""
     node = place.node
+    if isinstance(node, ast.Assign) and len(node.targets) > 1:
+        each: list[ast.stmt] = [ast.Assign([target], copied(node.value)) for target in node.targets]
+        yield Rewrite(ast.If(ast.Constant(True), each, []), "separate", text_of(node))
     is_value = isinstance(place.parent, ast.Assign) and place.field == "value"
     if is_value and isinstance(node, ast.Subscript | ast.Name) and context.shape(node):
         yield code("np.array(x, float)", x=node)
@@ -490,12 +506,35 @@ def missing_factor(context: Context, place: Place) -> Iterator[Any]:
 
 
 def other_flow(context: Context, place: Place) -> Iterator[Any]:
-    """Add up or not."""
-    node, in_loop = place.node, any(isinstance(x, ast.For | ast.While) for x in place.parents)
+    """Add up or not, move a line out of a loop or into it."""
+    node, parents = place.node, place.parents
+    in_loop = any(isinstance(x, ast.For | ast.While) for x in parents)
     if isinstance(node, ast.AugAssign):
         yield ast.Assign([node.target], node.value)
     elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name | ast.Subscript) and in_loop:
         yield ast.AugAssign(node.targets[0], ast.Add(), node.value)
+    if isinstance(node, ast.For):
+        yield from _other_loop(node, place)
+
+
+def _other_loop(node: ast.For, place: Place) -> Iterator[Rewrite]:
+    """Move the last line of a loop behind it, or one of those above into it; add up from zero."""
+    if len(node.body) > 2:  # the first counts the rounds
+        loop = ast.For(node.target, node.iter, node.body[:-1], node.orelse)
+        last = node.body[-1]
+        yield Rewrite(ast.If(ast.Constant(True), [loop, last], []), "after loop", text_of(last), last)
+    for k, line in enumerate(node.body):
+        if isinstance(line, ast.Assign) and isinstance(line.targets[0], ast.Name):
+            start = ast.Assign([ast.Name(line.targets[0].id, ast.Store())], ast.Constant(0))
+            added = ast.Assign(line.targets, ast.BinOp(ast.Name(line.targets[0].id, ast.Load()), ast.Add(), line.value))
+            loop = ast.For(node.target, node.iter, [*node.body[:k], added, *node.body[k + 1 :]], node.orelse)
+            yield Rewrite(ast.If(ast.Constant(True), [start, loop], []), "sum", text_of(line), line)
+    beside = getattr(place.parent, "body", [])
+    at = next((k for k, x in enumerate(beside) if x is node), 0)
+    for line in beside[max(0, at - 3) : at]:
+        if isinstance(line, ast.Assign):
+            loop = ast.For(node.target, node.iter, [line, *node.body], node.orelse)
+            yield Rewrite(loop, "in loop", text_of(line), line)
 
 
 FUNCTIONS: dict[str, Callable[[Context, Place], Iterator[Any]]] = {

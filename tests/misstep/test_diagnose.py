@@ -39,7 +39,7 @@ def test_a_slip_of_the_list_is_named_with_its_reason_and_the_line(tmp_path):
         (PROJECTILE, "a = angle\nreturn t * np.array([speed * np.cos(a), speed * np.sin(a) - 9.81 * t])", 3, "/ 2"),
         (STIFFNESS, "return R.T @ K @ R", 2, "R @ K @ R.T"),
         (STIFFNESS, "turned = R @ K\nreturn turned @ R", 3, "R.T"),
-        (CENTER, "c = 0\nfor a, p in zip(m, r):\n    c = a * p\nreturn c / sum(m)", 4, "c += a * p"),
+        (CENTER, "c = 0\nfor a, p in zip(m, r):\n    c = a * p\nreturn c / sum(m)", 4, "added up"),
     ],
 )
 def test_the_line_that_is_wrong_is_named_with_what_makes_it_right(tmp_path, part, text, line, after):

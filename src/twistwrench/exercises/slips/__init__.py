@@ -1,4 +1,4 @@
-"""The catalogue of slips: TOML files with a table for each slip; `kinds` has a word for what kind of slip each is."""
+"""The catalogue of slips: TOML files with a table for each slip; one of them has the words for what kind it is."""
 
 from __future__ import annotations
 
