@@ -55,6 +55,6 @@ An example without any course: a mean that is wrong by a slip nobody has listed.
 >>> cases = [(np.array([1.0, 2.5, 4.0]),), (np.array([3.0, 0.25]),)]
 >>> part = Part(solution=mean, returns=(Quantity("mean"),), cases=lambda rng: cases, slips={})
 >>> found = diagnose(part, np.median, [np.sum(x) for (x,) in cases], cases, Field(slips={}))
->>> found.how, found.lines[0].en
+>>> found.how, found.cure[0].en
 ('reference', 'Your numbers are those of a right solution that has `np.sum(x)` in place of `np.sum(x) / len(x)`.')
 """
