@@ -37,14 +37,14 @@ SHOWN |= {"49_09_floating_base": 1, "49_10_centroidal": 1, "scenes": 1}
 EXERCISES = {
     "en": """# Exercises
 
-The chapter's exercises with its pre-test and its project, in our own words. Answer them here, where *Check* names the
-slip and *Hint* helps one step at a time; or in a shell: `twistwrench exercises start answers` puts them into a folder,
-`python -m pytest` there checks what you write, and `twistwrench exercises hint 49.3.1` helps. Both have the same files:
-what is written here can be downloaded, and opened again.""",
+The chapter's exercises with its pre-test and its project, in our own words. Answer them here, where *Check* says
+where an answer is wrong and what kind of slip it is, and *Hint* helps one step at a time; or in a shell: `twistwrench
+exercises start answers` puts them into a folder, `python -m pytest` there checks what you write, and `twistwrench
+exercises hint 49.3.1` helps. Both have the same files: what is written here can be downloaded, and opened again.""",
     "zh": """# 练习
 
 本章的练习，连同前置自测与累积项目，用我们自己的话写成。
-可以就在这里作答：「检查」指出是哪一种错误，「提示」一步一步给出提示；也可以在命令行里：
+可以就在这里作答：「检查」指出错在哪里、是哪一类错误，「提示」一步一步给出提示；也可以在命令行里：
 `twistwrench exercises start answers --language zh` 把它们放进一个文件夹；
 在那里运行 `python -m pytest` 就会检查你写下的答案；
 `twistwrench exercises hint 49.3.1` 给出提示。两处的文件相同：这里写下的答案可以下载，也可以再读入。""",

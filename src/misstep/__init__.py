@@ -30,19 +30,17 @@ course       a course: its sections, its exercises, and what is special to its f
 cases        the cases that an answer is tried on
 judge        to do, done or wrong, with a message
 checked      the record of an exercise; as text, and as HTML
-formulas     an answer that is typed as a formula
 workbook     a student's folder: the answers in it; `mine`
 skeletons    the files that a student starts from
-transfer     a function of a notebook as bytes
 process      the process of a student's code, as it is seen from outside
 worker       the program that it runs
-isolation    a folder, or a function, judged in it
+isolation    a folder judged in it
 notebook     `check`
 helping      hints and solutions
 progress     a table of the sections
 submissions  what a class has handed in
 grading      a whole class
-sheets       its marks as a table, a CSV, a page, and XML
+sheets       its marks as a table, a CSV and a page
 commands     the command line of a course
 plugin       the plugin of pytest in a student's folder
 ===========  ======================================================================
@@ -57,6 +55,6 @@ An example without any course: a mean that is wrong by a slip nobody has listed.
 >>> cases = [(np.array([1.0, 2.5, 4.0]),), (np.array([3.0, 0.25]),)]
 >>> part = Part(solution=mean, returns=(Quantity("mean"),), cases=lambda rng: cases, slips={})
 >>> found = diagnose(part, np.median, [np.sum(x) for (x,) in cases], cases, Field(slips={}))
->>> found.how, found.lines[0].en
+>>> found.how, found.cure[0].en
 ('reference', 'Your numbers are those of a right solution that has `np.sum(x)` in place of `np.sum(x) / len(x)`.')
 """

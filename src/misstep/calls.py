@@ -9,6 +9,7 @@ import signal
 import sys
 import threading
 import warnings
+from _thread import interrupt_main
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from types import FrameType
@@ -19,7 +20,7 @@ import numpy as np
 from .compare import plain, unchanged
 from .exercise import Part
 
-__all__ = ["call_or_none", "cheapest_case", "copied", "keeps_arguments", "muted", "shown"]
+__all__ = ["TooLong", "call_or_none", "cheapest_case", "copied", "interrupted", "keeps_arguments", "muted", "shown"]
 
 Function = Callable[..., Any]
 
@@ -28,6 +29,34 @@ MAX_CPU_S = 1.0  # seconds of CPU time that one call of a changed function may t
 
 class TooLong(BaseException):
     """Raised in a call that does not end; no `except Exception` of a student holds it."""
+
+    def __init__(self, seconds: float = MAX_CPU_S) -> None:
+        super().__init__()
+        self.seconds = seconds
+
+
+@contextmanager
+def interrupted(seconds: float) -> Iterator[None]:
+    """Interrupt a block that takes longer, as Ctrl-C does, in the main thread where there are others; 0 for never."""
+    if not seconds or sys.platform == "emscripten" or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    is_late, has_ended = threading.Event(), threading.Event()
+
+    def watch() -> None:
+        while not has_ended.wait(seconds):
+            is_late.set()
+            interrupt_main()
+
+    threading.Thread(target=watch, daemon=True).start()
+    try:
+        yield
+    except KeyboardInterrupt as error:
+        if is_late.is_set():
+            raise TooLong(seconds).with_traceback(error.__traceback__) from None
+        raise
+    finally:
+        has_ended.set()
 
 
 @contextmanager

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from html import escape
 
 import numpy as np
 
-from .exercise import Exercise
+from .exercise import Exercise, Part
 from .text import Language, Text, say, wrapped
-from .verdict import EXPECTED, YOURS, Case, Compared, State, Verdict
+from .verdict import EXPECTED, LEVELS, YOURS, Case, Compared, State, Verdict
 
-__all__ = ["STATES", "STYLE", "WORDS", "Checked", "case_html", "checked_html", "verdict_html"]
+__all__ = ["STATES", "STYLE", "WORDS", "Checked", "case_html", "checked_html", "ladder", "verdict_html"]
 
 WORDS = "words"  # what stands for the answer in words among the names of functions
 STATES: dict[State, Text] = {
@@ -36,8 +36,12 @@ class Checked:
     language : {"en", "zh"}
     progress : str
         How much of the section has been checked and is right, as a line.
-    hints : int
-        How many were asked for.
+    level : int
+        How much is told of a wrong answer at once: 1 where it is wrong and the kind of slip, 2 the slip, 3 the cure.
+    max_level : int
+        How much can be asked for.
+    hints : dict
+        How many were asked for, by the name of the function.
     solution : bool
         Whether the solution was shown.
     """
@@ -47,7 +51,9 @@ class Checked:
     words: str | None
     language: Language
     progress: str = ""
-    hints: int = 0
+    level: int = 1
+    max_level: int = LEVELS[-1]
+    hints: Mapping[str, int] = field(default_factory=dict)
     solution: bool = False
 
     @property
@@ -86,7 +92,8 @@ class Checked:
     def __repr__(self) -> str:
         lines: list[str] = []
         for name, verdict in self.verdicts.items():
-            lines += [verdict.report(self.language) if verdict.state == "wrong" else self.line(name), ""]
+            is_wrong = verdict.state == "wrong"
+            lines += [verdict.report(self.language, self.level) if is_wrong else self.line(name), ""]
         if self.words and self.exercise.answer is not None:
             head = "{id}  Your words, to compare with the model answer:", "{id}  请把你的回答与参考答案对照："
             lines += [say(*head, id=self.exercise.id).of(self.language)]
@@ -112,10 +119,6 @@ STYLE = """<style>
 .tw-check details {margin: 0.2em 0 0.2em 1em}
 </style>"""
 
-IN_THE_SHELL = re.compile(r"[;；][^;；\n]* hint [\w.]+")
-"""What a message says of a command; where the hints are below it, it is left out."""
-
-
 AGAIN, INPUTS = Text("The same case again:", "再现这组数据："), Text("the inputs of this case", "这组数据的输入")
 COMPARE = Text("Your words, and the model answer to compare with:", "你的回答，以及供对照的参考答案：")
 
@@ -125,32 +128,41 @@ def checked_html(checked: Checked, *, hints: bool = True) -> str:
     language, exercise = checked.language, checked.exercise
     parts = [STYLE, '<div class="tw-check">']
     for name, verdict in checked.verdicts.items():
-        shown = verdict_html(verdict, language) if verdict.state == "wrong" else f"<b>{escape(checked.line(name))}</b>"
+        shown = f"<b>{escape(checked.line(name))}</b>"
+        if verdict.state == "wrong":
+            shown = verdict_html(verdict, language, checked.level)
+        if hints and verdict.state != "done" and name != WORDS:
+            every, told = ladder(exercise.part(name), verdict, checked.max_level), verdict.stages(checked.level)
+            shown += _hints([x for x in every if x not in told], language)
         kind = {"done": "right", "wrong": "wrong", "to do": "to-do"}[verdict.state]
-        parts.append(f'<div class="tw-{kind}">{IN_THE_SHELL.sub("", shown) if hints else shown}</div>')
+        parts.append(f'<div class="tw-{kind}">{shown}</div>')
     if checked.words and exercise.answer is not None:
         style = "vertical-align: top; text-align: left; width: 50%"
         texts = (checked.words, exercise.answer.of(language))
         cells = "".join(f'<td style="{style}"><pre>{escape(text.strip())}</pre></td>' for text in texts)
         parts.append(f'<p>{COMPARE.of(language)}</p><table style="width: 100%"><tr>{cells}</tr></table>')
-    if hints and not checked.right:
-        parts.append(_hints(exercise, language))
     return "\n".join([*parts, f"<p>{escape(checked.progress)}</p></div>"])
 
 
-def _hints(exercise: Exercise, language: Language) -> str:
+def ladder(part: Part, verdict: Verdict, max_level: int) -> tuple[Text, ...]:
+    """Return what can be asked for, one after the other: which slip it is, the hints of the function, the cure."""
+    help = verdict.stages(2)
+    return (*help, *part.hints, *verdict.stages(max_level)[len(help) :])
+
+
+def _hints(texts: Sequence[Text], language: Language) -> str:
     """Return the hints, each inside the one before it: it takes a click to see the next."""
-    nested, n = "", len(exercise.hints)
+    nested, n = "", len(texts)
     for k in range(n, 0, -1):
         title = say("hint {k} of {n}", "提示 {k}/{n}", k=k, n=n).of(language)
-        text = escape(exercise.hints[k - 1].of(language).strip())
+        text = escape(texts[k - 1].of(language).strip())
         nested = f"<details><summary>{title}</summary><pre>{text}</pre>{nested}</details>"
     return nested
 
 
-def verdict_html(verdict: Verdict, language: Language) -> str:
+def verdict_html(verdict: Verdict, language: Language, level: int = 1) -> str:
     """Return a message with its failing case."""
-    head, *lines = verdict.message(language).split("\n")
+    head, *lines = verdict.message(language, level, in_shell=False).split("\n")
     text = escape("\n".join(lines).strip("\n"))
     shown = case_html(verdict.case, language) if verdict.case is not None and verdict.case.inputs else ""
     return f"<b>{escape(head)}</b><pre>{text}</pre>{shown}"

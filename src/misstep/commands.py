@@ -68,6 +68,7 @@ def register(parser: Any, course: str) -> None:
 
     add = action(run_start, "write the skeletons into DIR; what is there stays as it is")
     add("dir", metavar="DIR", help="a folder for your answers, made if need be, such as `answers`")
+    add("--no-cure", dest="cure", action="store_false", help="messages never say what to write instead")
     add = action(run_status, "check all answers and show the progress by section")
     add("dir", nargs="?", default=".", metavar="DIR")
     add("--time-limit", type=_seconds, metavar="S", help="seconds for one call of a function; 0 for none (10)")
@@ -76,7 +77,7 @@ def register(parser: Any, course: str) -> None:
     add("name", metavar="FUNCTION", help="as in the skeletons")
     add("number", type=int, nargs="?", default=0, metavar="K", help="which case, counted from 0 (0)")
     add("--seed", type=at_least(0), default=0, metavar="N", help="of the random cases (0)")
-    add_hint = action(run_hint, "the next hint for an exercise")
+    add_hint = action(run_hint, "the next hint for a function; of a wrong answer, which slip it is")
     add_solution = action(run_solution, "a solution of an exercise")
     for add in (add_hint, add_solution):
         add("id", metavar="ID", help="as 49.3.1, or the name of a function")
@@ -90,7 +91,6 @@ def register(parser: Any, course: str) -> None:
     add("--only", nargs="+", default=[], metavar="ID", help="exercises or sections: 49.6 49.7.1 (all)")
     add("--csv", metavar="FILE", help="a row for each function of each student")
     add("--html", metavar="FILE", help="a page: points, messages, words beside the model answer")
-    add("--junit", metavar="FILE", help="a test suite for each student")
     add("--seed", type=at_least(0), metavar="N", help="of the random cases, the same for all; else drawn")
     add("--timeout", type=_seconds, metavar="S", help="seconds for one call of a function (10)")
     add("--jobs", type=at_least(1), metavar="N", help="folders at a time (one for each processor)")
@@ -119,7 +119,7 @@ def run_start(args: argparse.Namespace) -> int:
     """Write the skeletons."""
     from .skeletons import start
 
-    new, kept = start(_course(args), args.dir, language=args.language)
+    new, kept = start(_course(args), args.dir, language=args.language, cure=args.cure)
     language = _language(args, args.dir)
     for label, paths in ((Text("new", "新增"), new), (Text("kept as it is", "保持不变"), kept)):
         for path in paths:
@@ -183,13 +183,13 @@ def run_list(args: argparse.Namespace) -> int:
 
 
 def run_grade(args: argparse.Namespace) -> int:
-    """Grade folders, print a table, and write what is asked for: the CSV after each student, the others at the end."""
+    """Grade folders, print a table, and write what is asked for: the CSV after each student, the page at the end."""
     from .grading import grade
     from .isolation import TIME_LIMIT_S, drawn
-    from .sheets import as_csv, as_html, as_junit, as_table
+    from .sheets import as_csv, as_html, as_table
 
     seed, language = drawn(args.seed), args.language or default_language()
-    for option in ("csv", "html", "junit"):
+    for option in ("csv", "html"):
         path = getattr(args, option)
         check_writable(f"--{option}", None if path is None else Path(path))
     so_far: list[Graded] = []
@@ -205,8 +205,7 @@ def run_grade(args: argparse.Namespace) -> int:
     try:
         grade(_course(args), args.folders, language=language, ended=ended, **how)
     finally:
-        for path, made in ((args.html, as_html), (args.junit, as_junit)):
-            if path is not None and so_far:
-                write_text(path, made(so_far, seed, language))
+        if args.html is not None and so_far:
+            write_text(args.html, as_html(so_far, seed, language))
     print(as_table(so_far, seed, language))
     return 0

@@ -44,6 +44,22 @@ EDITS = {
 }
 """What an edit does, by its `how`."""
 
+KINDS = {
+    "copy": Text("kind of array", "数组类型"),
+    "order": Text("order", "顺序"),
+    "sign": Text("sign", "符号"),
+    "turn": Text("transpose or inverse", "转置或求逆"),
+    "drop": Text("a term or a call", "某一项或某次调用"),
+    "name": Text("another quantity", "用错了量"),
+    "index": Text("index", "下标"),
+    "number": Text("number", "数值"),
+    "operator": Text("operation", "运算"),
+    "flow": Text("loop", "循环"),
+}
+"""What kind of slip an edit undoes, by its rule."""
+
+KIND = Text("Kind of slip: {kinds}.", "错误类型：{kinds}。")
+LOOK = Text("Look at {lines}.", "请看{lines}。")
 ANY = Text("Your numbers fit any of these slips:", "你的数值等于犯下以下任一错误的结果：")
 OWN = Text("Line {line}: with {edit}, it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。")
 OWN_ANY = Text("Each of these changes alone makes it right{cases}:", "下列改动任取其一，{cases}就正确：")
@@ -205,9 +221,12 @@ class _Diagnoser:
         if len(names) > 1:
             lines = [ANY, *(say("  - {x}", "  - {x}", x=self._slip(name)) for name in names[:MAX_NAMED])]
         edit = next((x.edit for x in self.own.whole if x.edit and _is_plain(x.edit)), None)
-        if edit is not None:
-            lines.append(say("Line {line}: {edit}.", "第 {line} 行：{edit}。", line=edit.line, edit=edit_text(edit)))
-        return _wrong("slip", *lines, slips=names)
+        cure = (
+            say("Line {line}: {edit}.", "第 {line} 行：{edit}。", line=edit.line, edit=edit_text(edit))
+            if edit
+            else None
+        )
+        return self._explained("slip", self.listed.whole, help=lines, cure=[cure] if cure else [], slips=names)
 
     def _of_results(self) -> Verdict | None:
         """Explain each wrong result by itself, by slips alone or by slips and edits."""
@@ -222,11 +241,13 @@ class _Diagnoser:
         if not evidence.wrong <= found.keys():
             return None
         each = {j: found[j][0] for j in sorted(evidence.wrong)}
-        named = [(self.part.returns[j].title, self._of_result(x)) for j, x in each.items()]
-        lines = [say("In {name}: {x}", "在 {name} 中：{x}", name=name, x=x) for name, x in named]
+        lines: dict[bool, list[Text]] = {True: [], False: []}  # slips, and edits
+        for j, x in each.items():
+            text = say("In {name}: {x}", "在 {name} 中：{x}", name=self.part.returns[j].title, x=self._of_result(x))
+            lines[bool(x.slip)].append(text)
         names = list(dict.fromkeys(x.slip for x in each.values() if x.slip))
         how: How = "slip" if names else "line" if any(x.origin == "own" for x in each.values()) else "reference"
-        return _wrong(how, *lines, slips=names)
+        return self._explained(how, [*each.values()], help=lines[True], cure=lines[False], slips=names)
 
     def _of_result(self, hypothesis: Hypothesis) -> Text:
         if hypothesis.edit is None:
@@ -240,20 +261,38 @@ class _Diagnoser:
         edits = [x.edit for x in self.own.whole if x.edit][:MAX_NAMED]
         if not edits:
             return None
-        n, evidence = len(self.evidence.cases), self.evidence
+        n = len(self.evidence.cases)
         cases = Text(f" in all {n} cases", f"全部 {n} 组数据") if n > 1 else Text("", "")
         each = [{"line": x.line, "edit": edit_text(x)} for x in edits]
         lines = [OWN.fill(cases=cases, **each[0])]
         if len(each) > 1:
             lines = [OWN_ANY.fill(cases=cases)]
             lines += [say("  - line {line}: {edit}", "  - 第 {line} 行：{edit}", **x) for x in each]
-        has_raised = evidence.answers[evidence.first] is None
-        shown = None if has_raised else structure(self.part, evidence.answers, evidence.right)
-        return _wrong("line", *([shown] if shown else []), *lines)
+        numbers = dict.fromkeys(x["line"] for x in each)
+        look = Text(" or ".join(f"line {n}" for n in numbers), "或".join(f"第 {n} 行" for n in numbers))
+        return self._explained("line", self.own.whole[:MAX_NAMED], help=[LOOK.fill(lines=look)], cure=lines)
 
     def _of_reference(self) -> Verdict | None:
         edit = next((x.edit for x in self.reference.whole if x.edit), None)
-        return None if edit is None else _wrong("reference", REFERENCE.fill(edit=edit_text(edit)))
+        if edit is None:
+            return None
+        return self._explained("reference", self.reference.whole[:1], cure=[REFERENCE.fill(edit=edit_text(edit))])
+
+    def _explained(self, how: How, found: Sequence[Hypothesis], **more: Sequence[Any]) -> Verdict:
+        """Return a verdict that begins with where the answer is wrong and what kind of slip it is."""
+        kinds = [self.field.slips[x.slip].kind if x.edit is None else KINDS[x.edit.rule] for x in found[:MAX_NAMED]]
+        each = dict.fromkeys(kinds)
+        kind = KIND.fill(kinds=Text(", ".join(x.en for x in each), "、".join(x.zh for x in each)))
+        return _wrong(how, *self._where(), kind, **{name: tuple(lines) for name, lines in more.items()})
+
+    def _where(self) -> list[Text]:
+        """Return where the first wrong answer differs, unless it has nothing to compare, or others would be right."""
+        evidence = self.evidence
+        answer, right = evidence.answers[evidence.first], evidence.right[evidence.first]
+        if answer is None or self.part.canonical is not None:
+            return []
+        found = structure(self.part, evidence.answers, evidence.right)
+        return [found] if found else differences(self.part, answer, right)[0][:MAX_LINES]
 
     def _located(self) -> Verdict:
         """Where it goes wrong, and how the numbers differ."""
@@ -262,8 +301,9 @@ class _Diagnoser:
         if self.program is not None:
             line = first_wrong_line(self.program, evidence.cases[first], self.solutions)
         shown, telling = differences(self.part, evidence.answers[first], evidence.right[first])
-        lines = [x for x in (line, next(self._broken_properties(), None)) if x is not None]
-        return _wrong("located" if lines or telling else "numbers", *lines, *shown[:MAX_LINES])
+        broken, help = [*self._broken_properties()][:1], (line,) if line else ()
+        how: How = "located" if broken or help or telling else "numbers"
+        return _wrong(how, *broken, *shown[:MAX_LINES], help=help)
 
     def _broken_properties(self) -> Iterator[Text]:
         """Yield the properties of right answers that the first wrong one lacks."""
@@ -285,8 +325,8 @@ class _Diagnoser:
         return Text(f"{title.en}. {why.en}", f"{title.zh}。{why.zh}")
 
 
-def _wrong(how: How, *lines: Text, slips: Sequence[str] = ()) -> Verdict:
-    return Verdict("wrong", lines, tuple(slips), how=how)
+def _wrong(how: How, *lines: Text, **more: Any) -> Verdict:
+    return Verdict("wrong", lines, how=how, **more)
 
 
 def _exchanged(answer: Any, i: int, j: int) -> Any:

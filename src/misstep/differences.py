@@ -17,14 +17,12 @@ __all__ = ["differences", "first_wrong_line", "structure"]
 
 MAX_LISTED = 3  # wrong entries that are listed
 NEARLY = 5e-3  # relative error of an answer of which some digits are right
-SINGLE_ERROR = (5e-9, 2e-6)  # relative errors, of the largest entry, that single precision leaves
 TRACE_RTOL = 1e-9
 
 NO_RETURN = Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`？")
 SOMETIMES_NONE = Text(
     "In some cases it returned None: is a `return` missing?", "有时返回了 None：是不是漏了 `return`？"
 )
-SINGLE = Text("It is right to about 7 digits only: single precision.", "只有约 7 位正确：这是单精度。")
 COUNT = Text("It must return {n} things: {names}. It returned {got}.", "应返回 {n} 个量：{names}。实际返回 {got}。")
 FIXED_SIZE = Text("{name} has the shape {shape} in all cases.", "在所有情形中 {name} 的形状都是 {shape}。")
 TYPE = Text("{name} must be {what}, not {got}.", "{name} 应为{what}，而不是 {got}。")
@@ -57,9 +55,7 @@ def structure(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text 
             return FIXED_SIZE.fill(name=quantity.title, shape=shapes.pop())
         if found and all(found):
             return found[0]
-    errors = [_relative_error(a, b) for x, y in split for a, b in zip(x, y)]
-    is_single = part.rtol < SINGLE_ERROR[0] < max(errors, default=0) < SINGLE_ERROR[1]
-    return SINGLE if is_single else None
+    return None
 
 
 def _uncomparable(got: Value, right: Value) -> Text | None:
@@ -75,14 +71,6 @@ def _uncomparable(got: Value, right: Value) -> Text | None:
     if a.shape != b.shape:
         return SHAPE.fill(name=name, got=a.shape, right=b.shape)
     return NOT_FINITE.fill(name=name) if np.isfinite(b).all() and not np.isfinite(a).all() else None
-
-
-def _relative_error(got: Value, right: Value) -> float:
-    a, b = got.array, right.array
-    if a is None or b is None or a.shape != b.shape or not a.size or "b" in a.dtype.kind + b.dtype.kind:
-        return np.inf
-    error = float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
-    return error if np.isfinite(error) else np.inf
 
 
 def differences(part: Part, answer: Any, right: Any) -> tuple[list[Text], bool]:

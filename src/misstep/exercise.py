@@ -76,11 +76,12 @@ class Quantity:
 
 
 class Slip(NamedTuple):
-    """A mistake that many have made before: its name, what is true instead, and where the course has it."""
+    """A mistake that many have made before: its name, what is true instead, where the course has it, its kind."""
 
     title: Text
     why: Text
     section: str
+    kind: Text
 
 
 class Property(NamedTuple):
@@ -174,6 +175,11 @@ class Part(_Written):
         return self._text(self._prose["doc"])
 
     @cached_property
+    def hints(self) -> tuple[Text, ...]:
+        """From a nudge to nearly the answer."""
+        return tuple(map(self._text, self._prose.get("hints", [])))
+
+    @cached_property
     def reasons(self) -> Mapping[str, Text]:
         """The reasons of slips whose general reason does not fit here."""
         return self._texts("reasons")
@@ -209,7 +215,7 @@ class Part(_Written):
 
 @dataclass(frozen=True, kw_only=True)
 class Exercise(_Written):
-    """An exercise of the chapter. Its texts, hints and model answer are in the data file beside its module.
+    """An exercise of the chapter. Its texts and its model answer are in the data file beside its module.
 
     Attributes
     ----------
@@ -250,10 +256,9 @@ class Exercise(_Written):
         """The question, in our own words, with the chapter's numbers. It names the chapter's errors."""
         return self._text(self._prose["text"])
 
-    @property
-    def hints(self) -> tuple[Text, ...]:
-        """From a nudge to nearly the answer."""
-        return tuple(map(self._text, self._prose["hints"]))
+    def part(self, name: str) -> Part:
+        """Return one of its functions."""
+        return next(part for part in self.parts if part.name == name)
 
     @property
     def answer(self) -> Text | None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from os import PathLike
 
+from .checked import ladder
 from .course import Course
 from .isolation import opened
 from .skeletons import solution_sources
 from .text import Language, Text, say, wrapped
-from .workbook import Workbook
+from .verdict import Verdict
+from .workbook import Workbook, checksum
 
 __all__ = ["hint", "solution"]
 
@@ -45,36 +46,39 @@ def hint(
     every: bool = False,
     language: Language | None = None,
 ) -> str:
-    """Return the next hint for an exercise, or the last one again. How many were given is remembered in the folder."""
-    exercise, book = course.asked_for(name), Workbook(course, folder, language=language)
-    number, language, n = exercise.id, book.language, len(exercise.hints)
-    shown = int(book.state["hints"].get(number, 0))
-    last = n if every else min(max(shown, 1) if again else shown + 1, n)
-    is_remembered = _remember(book, exercise.section, hints={**book.state["hints"], number: max(shown, last)})
+    """Return the next hint for a function, or the last one again. Which were given is remembered in the folder.
+
+    Of a wrong answer the first says which slip it is, and the last what to write instead. An exercise stands for the
+    first of its functions that is not right.
+    """
+    exercise = course.asked_for(name)
+    with opened(course, folder, language=language) as book:
+        parts = exercise.parts if name == exercise.id else (exercise.part(name),)
+        found = [(part, book.verdict(exercise, part)) for part in parts] if book.is_started else []
+        part, verdict = next((x for x in found if x[1].state != "done"), (parts[0], Verdict("to do")))
+        texts, language = ladder(part, verdict, book.max_level), book.language
+        shown = book.state["hints"].get(part.name, ())
+        given = [k for k, text in enumerate(texts) if checksum(text) in shown]
+        others = [k for k in range(len(texts)) if k not in given]
+        following = given[-1:] if again and given else others[:1] or given[-1:]
+        chosen = range(len(texts)) if every else following
+        is_remembered = book.remember_hints(exercise, part, [texts[k] for k in chosen])
     lines: list[str] = []
-    for k in range(1 if every else last, last + 1):
+    for k in chosen:
         title = say(
-            "{id} {title}: hint {k} of {n}", "{id} {title}：提示 {k}/{n}", id=number, title=exercise.title, k=k, n=n
+            "{id} {name}: hint {k} of {n}",
+            "{id} {name}：提示 {k}/{n}",
+            id=exercise.id,
+            name=part.name,
+            k=k + 1,
+            n=len(texts),
         )
-        lines += [title.of(language), "", *wrapped(exercise.hints[k - 1].of(language)), ""]
-    if last == n:
-        lines.append(LAST.fill(id=number, command=course.command).of(language))
+        lines += [title.of(language), "", *wrapped(texts[k].of(language)), ""]
+    if not chosen or chosen[-1] == len(texts) - 1:
+        lines.append(LAST.fill(id=exercise.id, command=course.command).of(language))
     elif not is_remembered:
         lines.append(FORGOTTEN.of(language))
     return Shown("\n".join(lines).rstrip("\n"))
-
-
-def _has_file(book: Workbook, section: str) -> bool:
-    return (book.folder / book.course.file_name(section)).exists()
-
-
-def _remember(book: Workbook, section: str, **news: object) -> bool:
-    """Write down what was shown, in a folder with the exercise that may be written to; return whether it is."""
-    with suppress(OSError):
-        if _has_file(book, section):
-            book.remember(**news)
-            return True
-    return False
 
 
 def solution(course: Course, name: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
@@ -84,12 +88,12 @@ def solution(course: Course, name: str, folder: str | PathLike[str] = ".", *, la
     """
     exercise, book = course.asked_for(name), Workbook(course, folder, language=language)
     number, language = exercise.id, book.language
-    _remember(book, exercise.section, solutions=sorted({*book.state["solutions"], number}))
+    book.remember_shown(exercise.section, solutions=sorted({*book.state["solutions"], number}))
     head = say("{id} {title}: a solution", "{id} {title}：参考解答", id=number, title=exercise.title)
     lines = [head.of(language), *("\n" + source.rstrip() for source in solution_sources(exercise, language))]
     if exercise.answer is not None:
         has_words = False
-        if _has_file(book, exercise.section):
+        if book.path(exercise.section).exists():
             with opened(course, book.folder) as other:  # the file is read in a process of its own
                 has_words = other.words(exercise) is not None
         line = Text("The model answer:", "参考答案：") if has_words else LATER.fill(name=exercise.answer_name)

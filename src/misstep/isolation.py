@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import base64
-import linecache
 import re
 import secrets
 import sys
-import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib.util import decode_source
 from os import PathLike
@@ -19,20 +16,17 @@ from .cases import cases
 from .course import Course
 from .errors import CourseError
 from .exercise import Exercise, Part
-from .judge import at_line
+from .judge import ENDLESS, at_line
 from .process import Died, Process
-from .rules import is_ours, is_reference
+from .rules import is_ours
 from .text import Language, Text, say
-from .transfer import sent
 from .verdict import Verdict, failing_case, headed
 from .workbook import Workbook, content
-from .worker import NOT_RECEIVED
 
-__all__ = ["TIME_LIMIT_S", "drawn", "judged", "not_judged", "opened"]
+__all__ = ["TIME_LIMIT_S", "checked_limit", "drawn", "not_judged", "opened"]
 
 TIME_LIMIT_S = 10.0  # for one call of a function, and for reading a file; the longest of the references takes 0.1 s
 
-ENDLESS = Text("It did not finish in {s:g} s: a loop that never ends?", "{s:g} 秒内没有结束：是不是死循环？")
 ENDED = Text("It ended the whole Python process.", "它使整个 Python 进程终止了。")
 
 
@@ -41,6 +35,13 @@ def drawn(seed: int | None) -> int:
     if seed is not None and seed < 0:
         raise CourseError(f"seed: expected a whole number, 0 or more, got {seed}")
     return secrets.randbelow(10**6) if seed is None else seed
+
+
+def checked_limit(time_limit: float) -> float:
+    """Return a time limit that is none or some seconds."""
+    if not time_limit >= 0:
+        raise CourseError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
+    return time_limit
 
 
 def not_judged(exercise: Exercise, part: Part, why: object) -> Verdict:
@@ -64,9 +65,8 @@ def opened(
     A time limit of 0 is none, and no other process: a debugger needs that. What the other process prints goes to
     `printed`, or nowhere. The other arguments are those of `Workbook`; the seed is drawn unless given.
     """
-    if not time_limit >= 0:
-        raise CourseError(f"time_limit: expected seconds, 0 or more, got {time_limit}")
-    if not time_limit or not sys.executable or sys.platform == "emscripten":  # a browser has no other process
+    has_none = not sys.executable or sys.platform == "emscripten"  # a browser has no other process
+    if not checked_limit(time_limit) or has_none:
         yield Workbook(course, folder, language=language, seed=drawn(seed), files=files)
         return
     book = _Isolated(course, folder, language=language, seed=drawn(seed), files=files)
@@ -75,21 +75,6 @@ def opened(
         yield book
     finally:
         book.close()
-
-
-def judged(exercise: Exercise, part: Part, function: Callable[..., Any], *, seed: int, time_limit: float) -> Verdict:
-    """Judge a function of a notebook, a script or a shell in another process, and print what it prints.
-
-    It is judged here where there is no other process, and where it holds what cannot be sent to one.
-    """
-    with tempfile.TemporaryFile() as printed:
-        try:
-            with opened(exercise.course, ".", seed=seed, time_limit=time_limit, printed=printed) as book:
-                return book.judge_function(exercise, part, function)
-        finally:
-            printed.seek(0)
-            if text := printed.read().decode(errors="replace"):
-                sys.stdout.write(text)
 
 
 class _Isolated(Workbook):
@@ -105,18 +90,12 @@ class _Isolated(Workbook):
         found = self._ask("words", exercise.id)
         return found if isinstance(found, str) else None
 
-    def judge_function(self, exercise: Exercise, part: Part, function: Callable[..., Any]) -> Verdict:
-        """Judge a function that is sent to the other process."""
-        data = None if is_reference(part, function) else sent(function)
-        found = None if data is None else self._judge(exercise, part, base64.b64encode(data).decode())
-        return super().judge_function(exercise, part, function) if found is None else found
-
-    def _judge(self, exercise: Exercise, part: Part, *function: str) -> Any:
+    def _judge(self, exercise: Exercise, part: Part) -> Verdict:
         why = None
         for what in ("verdict", "plain verdict"):  # at a change that the search tries, a library may end the process
-            found = self._ask(what, part.name, *function)
-            if isinstance(found, Verdict) or found == NOT_RECEIVED:
-                return found if isinstance(found, Verdict) else None
+            found = self._ask(what, part.name)
+            if isinstance(found, Verdict):
+                return found
             why = found or why
         return not_judged(exercise, part, why or ENDED.en)
 
@@ -133,12 +112,12 @@ class _Isolated(Workbook):
         task |= {"states": states, "unreadable": [[k, x] for k, x in self._modules.items() if isinstance(x, Text)]}
         return Process(task, self.time_limit, self.printed)
 
-    def _ask(self, what: str, name: str, *function: str) -> Any:
+    def _ask(self, what: str, name: str) -> Any:
         """Return the answer of the other process. Where it had to stop, note at what, and start a new one."""
         while not self.is_closed:
             self._process = self._process or self._started()
             try:
-                answer, borrowed = self._process.ask(what, name, *function)
+                answer, borrowed = self._process.ask(what, name)
             except Died as died:
                 self._process = None
                 if died.at is None or (what == "verdict" and died.at == name and not died.late):
@@ -173,9 +152,9 @@ class _Isolated(Workbook):
 
 
 def _line(path: str, number: int) -> str:
-    """Return a line of a student's file, or of a cell; empty where there is none."""
+    """Return a line of a student's file; empty where there is none."""
     try:
         source = decode_source(content(Path(path)))
     except (OSError, SyntaxError, UnicodeError, ValueError):
-        source = "".join(linecache.getlines(path)) if path in linecache.cache else ""  # a cell
+        return ""
     return "".join(source.splitlines()[number - 1 : number]).strip()

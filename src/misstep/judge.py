@@ -7,14 +7,14 @@ import inspect
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
-from dataclasses import is_dataclass
+from dataclasses import is_dataclass, replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .calls import copied, shown
+from .calls import TooLong, copied, shown
 from .cases import cases, every_case, further_cases, special_cases
 from .compare import agree, copied_results, is_one_array, plain, to_do, unchanged
 from .diagnose import diagnose
@@ -24,11 +24,12 @@ from .search import Arguments
 from .text import Text, say
 from .verdict import Case, Verdict, failing_case, headed
 
-__all__ = ["at_line", "judge"]
+__all__ = ["ENDLESS", "at_line", "judge"]
 
 Function = Callable[..., Any]
 Watch = Callable[[], AbstractContextManager[object]]
 
+ENDLESS = Text("It did not finish in {s:g} s: a loop that never ends?", "{s:g} 秒内没有结束：是不是死循环？")
 NEEDS = Text("It needs the package {name}, which is not installed here.", "需要 {name}，此处没有安装。")
 CHANGED = Text("It changes its argument `{name}`: work on a copy.", "它修改了参数 `{name}`：请在副本上运算。")
 CHANGED_TERM = Text(
@@ -43,7 +44,7 @@ KEPT = Text(
 ONE_ARRAY = Text("Two of the things that it returns are one and the same array.", "它返回的量中有两个是同一个数组。")
 ONE_WAY = Text("The two results are the same to the last bit in all cases.", "两个结果在所有情形中逐位相同。")
 COMPUTE_EACH = Text("The numbers are right, but compute each in its own way: {why}", "数值正确，但请分别计算：{why}")
-READ_ON = Text("Read {section}; ask for a hint: {command} hint {id}", "参阅{section}；需要提示：{command} hint {id}")
+READ, ASK = Text("Read {section}.", "参阅{section}。"), Text("For more: {call}", "更多提示：{call}")
 
 
 def judge(
@@ -91,6 +92,8 @@ class _Raised(Exception):
     def lines(self) -> list[Text]:
         """Report what was raised, and at which line of the student's file."""
         lines = [say("It stopped with {error}", "运行出错：{error}", error=shown(self.error))]
+        if isinstance(self.error, TooLong):
+            lines = [ENDLESS.fill(s=self.error.seconds)]
         own = [f for f in traceback.extract_tb(self.error.__traceback__) if not is_ours(f.filename)]
         frame = next((f for f in reversed(own) if f.line), own[-1] if own else None)  # generated code shows no line
         return lines if frame is None else [*lines, *at_line(frame.filename, frame.lineno, frame.line)]
@@ -105,6 +108,7 @@ class _Trial:
         self.exercise, self.course, self.part, self.function = exercise, exercise.course, part, function
         self.seed, self.watch, self.search = seed, watch, search
         self.tried: list[Arguments] = []
+        self.current: Arguments = ()
         self.answers: list[Any] = []
         self.expected: list[Any] = []
         self.right: list[bool] = []
@@ -112,8 +116,16 @@ class _Trial:
 
     def verdict(self) -> Verdict:
         """Try the function in all cases, and report what is wrong."""
+        try:
+            return self._verdict()
+        except TooLong as late:
+            self.tried.append(self.current)
+            return self._headed(*_Raised(late).lines(), case=self._case(-1), how="located")
+
+    def _verdict(self) -> Verdict:
         broken = broken_rules(self.course.rules, self.part, self.function)  # before anything is run
         for arguments in self._cases():
+            self.current = arguments
             try:
                 ended = self._try(arguments)
             except NotImplementedError:
@@ -172,7 +184,8 @@ class _Trial:
             every = every_case(self.course, self.part, self.seed)
             found = diagnose(self.part, self.function, [None] * len(every), every, self.course.field)
             if found.how == "line":
-                return self._headed(*lines, *found.lines, case=self._case(-1), how="line")
+                shown = {"help": found.help, "cure": found.cure, "more": self._more()}
+                return self._headed(*lines, *found.lines, case=self._case(-1), how="line", **shown)
         return self._headed(*lines, case=self._case(-1), how="located")
 
     def _judged(self, broken: Sequence[Text]) -> Verdict:
@@ -219,9 +232,14 @@ class _Trial:
             return self._headed(*changes, case=self._case(k))
         wrong, n = self.right.count(False), len(self.right)
         count = say("Wrong in {wrong} of {n} cases.", "{n} 组数据中错了 {wrong} 组。", wrong=wrong, n=n)
-        lines = (*changes, *found.lines, *([count] if self.tried[k] else []), self._where(found.slips))
-        case = self._case(k, (self.expected[k], self.answers[k]))
-        return self._headed(*lines, slips=found.slips, case=case, how=found.how)
+        return replace(
+            self._headed(*changes, *found.lines, *([count] if self.tried[k] else []), how=found.how),
+            slips=found.slips,
+            case=self._case(k, (self.expected[k], self.answers[k])),
+            help=found.help,
+            cure=found.cure,
+            more=self._more(found.slips),
+        )
 
     def _headed(self, *lines: Text, **more: Any) -> Verdict:
         return headed(self.exercise, self.part, *lines, **more)
@@ -230,11 +248,11 @@ class _Trial:
         k %= len(self.tried)
         return failing_case(self.exercise, self.part, k, self.seed, self.tried[k], answers)
 
-    def _where(self, slips: Sequence[str]) -> Text:
-        """Return where to read on."""
+    def _more(self, slips: Sequence[str] = ()) -> tuple[Text, ...]:
+        """Return where to read on, and how to ask for more."""
         section = self.course.field.slips[slips[0]].section if slips else self.exercise.section
         name = Text(f"§{section}", f" §{section}") if section[:1].isdigit() else self.course.title(section)
-        return READ_ON.fill(section=name, id=self.exercise.id, command=self.course.command)
+        return READ.fill(section=name), ASK.fill(call=f"{self.course.command} hint {self.part.name}")
 
 
 def _is_frozen(x: Any) -> bool:

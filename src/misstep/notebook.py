@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
+from .calls import interrupted
 from .checked import WORDS, Checked
 from .course import Course
 from .errors import CourseError, check_known
 from .exercise import Exercise, Part
-from .formulas import judge_formula
-from .isolation import TIME_LIMIT_S, drawn, judged
+from .isolation import TIME_LIMIT_S, checked_limit, drawn
 from .text import Language, say
-from .verdict import State
+from .verdict import LEVELS, State
 from .workbook import Workbook, verdict_on_words
 
 __all__ = ["check", "checked"]
@@ -32,33 +32,38 @@ def check(
     language: Language | None = None,
     seed: int | None = None,
     time_limit: float = TIME_LIMIT_S,
+    level: int = 1,
     caller: Mapping[str, Any] | None = None,
-    formulas: Mapping[str, str] | None = None,
 ) -> Checked:
     """Check an exercise where it is written: the functions given, or those of it among the names of the caller.
 
-    A course's own `check` explains the arguments. `formulas` are by the names of the functions.
+    A course's own `check` explains the arguments.
     """
-    exercise, formulas, seed = course.exercise(number), formulas or {}, drawn(seed)
+    exercise = course.exercise(number)
+    if level not in LEVELS:
+        raise CourseError(f"level: expected one of {LEVELS}, got {level!r}")
     known = {part.name: part for part in exercise.parts}
     given = functions
-    if not functions and not formulas and words is None:
+    if not functions and words is None:
         given = tuple(caller[name] for name in known if callable(caller.get(name))) if caller else ()
         if not given:
             expected = f"expected a function of {number} ({', '.join(known)})"
             raise CourseError(f"check: {expected}, got none, and none is defined here")
+    _ASKED.update({} if language is None else {"language": language})
+    book = Workbook(course, ".", language=_ASKED.get("language"), seed=drawn(seed))
+    limit = checked_limit(time_limit)
+    book.watch = lambda name: interrupted(limit)
     verdicts = {}
     for function in given:
         part = _part(exercise, known, function, alone=len(functions) == 1)
-        verdicts[part.name] = judged(exercise, part, function, seed=seed, time_limit=time_limit)
-    for name, formula in formulas.items():
-        check_known(f"function of {number}", name, known, course.unknown)
-        verdicts[name] = judge_formula(exercise, known[name], formula, seed=seed)
+        verdicts[part.name] = book.judge_function(exercise, part, function)
     if words is not None:
         verdicts[WORDS] = verdict_on_words(exercise, words)
-    _ASKED.update({} if language is None else {"language": language})
-    language = _ASKED.get("language") or Workbook(course, ".").language
-    return _with_progress(Checked(exercise, verdicts, words, language))
+    level = min(level, book.max_level)
+    for name in verdicts.keys() & known.keys():
+        book.remember_hints(exercise, known[name], verdicts[name].stages(level))
+    found = Checked(exercise, verdicts, words, book.language, level=level, max_level=book.max_level)
+    return _with_progress(replace(found, hints=book.hints(exercise)))
 
 
 def checked(book: Workbook, exercise: Exercise) -> Checked:

@@ -23,7 +23,7 @@ from .exercise import Exercise
 from .isolation import TIME_LIMIT_S, opened
 from .progress import survey
 from .text import Text, say, wrapped
-from .verdict import Unread, Verdict
+from .verdict import LEVELS, Unread, Verdict
 from .workbook import Workbook
 
 __all__ = [
@@ -61,11 +61,13 @@ def configure(config: pytest.Config, course: Course) -> None:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the time limit and the seed."""
+    """Add the time limit, the seed, and how much is told."""
     limit = "seconds for one call of an answer; 0 for none, as `breakpoint()` needs it (10)"
     parser.addoption("--time-limit", type=float, default=TIME_LIMIT_S, metavar="S", help=limit)
     seed = "of the random cases; drawn anew each time unless given"
     parser.addoption("--seed", type=at_least(0), metavar="N", help=seed)
+    level = "how much is told of a wrong answer: 1 where and what kind (1), 2 which slip, 3 the cure; counted as hints"
+    parser.addoption("--level", type=int, choices=LEVELS, default=1, help=level)
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
@@ -140,7 +142,11 @@ class Answer(pytest.Item):
             todo = say("to do: {id} {name}", "未做：{id} {name}", id=self.exercise.id, name=name)
             pytest.skip("  ".join(line.of(language) for line in (todo, *verdict.lines)))
         if verdict.state == "wrong":
-            raise Wrong(verdict.report(language))
+            level = min(self.config.getoption("level"), self.parent.book.max_level)
+            if self.asked != WORDS:
+                part = self.exercise.part(self.asked)
+                self.parent.book.remember_hints(self.exercise, part, verdict.stages(level))
+            raise Wrong(verdict.report(language, level))
 
     def _cannot_read(self, verdict: Unread) -> NoReturn:
         """Report once why a file cannot be read, not again for each function in it."""
@@ -154,7 +160,7 @@ class Answer(pytest.Item):
         book, exercise = self.parent.book, self.exercise
         if self.asked == WORDS:
             return book.verdict_in_words(exercise)
-        return book.verdict(exercise, next(part for part in exercise.parts if part.name == self.asked))
+        return book.verdict(exercise, exercise.part(self.asked))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Show the message of a wrong answer as it is; of anything else the trace."""

@@ -1,4 +1,4 @@
-"""What an instructor gets of a graded class: a table, a CSV, a page, and JUnit's XML."""
+"""What an instructor gets of a graded class: a table, a CSV, and a page."""
 
 from __future__ import annotations
 
@@ -6,15 +6,14 @@ import csv
 import io
 from collections.abc import Iterator, Sequence
 from html import escape
-from xml.etree.ElementTree import Element, SubElement, tostring
 
 from .checked import STYLE, WORDS, Checked, verdict_html
 from .exercise import Exercise
 from .grading import Graded
 from .text import Language, Text, columns, say
-from .verdict import Verdict
+from .verdict import LEVELS, Verdict
 
-__all__ = ["as_csv", "as_html", "as_junit", "as_table"]
+__all__ = ["as_csv", "as_html", "as_table"]
 
 HEADER = "student exercise function state points of hints solution slips how reason words seed"
 HEADS = (Text("student", "学生"), Text("points", "得分"), Text("hints", "提示"), Text("solutions", "看过解答"))
@@ -55,7 +54,11 @@ def as_table(found: Sequence[Graded], seed: int, language: Language) -> str:
     lines = [_padded(student, wide) + "".join(_padded(head, 14) for head in heads)]
     for one in found:
         marks = one.marks.values()
-        counts = (sum(m.hints for m in marks), sum(m.solution for m in marks), sum(m.words is not None for m in marks))
+        counts = (
+            sum(sum(m.hints.values()) for m in marks),
+            sum(m.solution for m in marks),
+            sum(m.words is not None for m in marks),
+        )
         cells = (f"{one.points:.2f} / {len(one.marks)}", *map(str, counts))
         lines.append((_padded(one.student, wide) + "".join(_padded(cell, 14) for cell in cells)).rstrip())
         lines += [f"  ! {remark.of(language)}" for remark in one.remarks]
@@ -84,14 +87,14 @@ def _rows(one: Graded, language: Language) -> Iterator[tuple[object, ...]]:
     for remark in one.remarks:
         yield *[""] * 9, remark.of(language), ""
     for number, mark in one.marks.items():
-        share, used = 1 / len(mark.functions), (mark.hints, int(mark.solution))
+        share, solution = 1 / len(mark.functions), int(mark.solution)
         for name, verdict in mark.functions.items():
             points = f"{share if verdict.state == 'done' else 0:.4g}", f"{share:.4g}"
             why = " ".join(verdict.slips), verdict.how, _reason(verdict, language)
-            yield number, name, verdict.state, *points, *used, *why, ""
+            yield number, name, verdict.state, *points, mark.hints.get(name, 0), solution, *why, ""
         if WORDS in mark.verdicts:
             name, state = mark.exercise.answer_name, mark.verdicts[WORDS].state
-            yield number, name, state, "", "", *used, "", "", "", mark.words or ""
+            yield number, name, state, "", "", 0, solution, "", "", "", mark.words or ""
 
 
 def _harmless(cell: str) -> str:
@@ -101,33 +104,9 @@ def _harmless(cell: str) -> str:
 
 def _reason(verdict: Verdict, language: Language) -> str:
     """Return what the message says first after its head, on one line; what ends in a colon goes with the next."""
-    found = [line.of(language).strip() for line in verdict.lines[1:]]
+    found = [line.of(language).strip() for line in verdict.help or verdict.cure or verdict.lines[1:]]
     last = next((k for k, line in enumerate(found) if not line.endswith((":", "："))), 0)
     return " ".join(found[: last + 1])
-
-
-def as_junit(found: Sequence[Graded], seed: int, language: Language) -> str:
-    """Return JUnit's XML: a suite for each student, whose name is also the class of each of the tests."""
-    root = Element("testsuites", name=f"exercises, seed {seed}")
-    for one in found:
-        student = _printable(one.student)
-        verdicts = [(n, name, v) for n, mark in one.marks.items() for name, v in mark.functions.items()]
-        wrong, to_do = (str(sum(v.state == state for *_, v in verdicts)) for state in ("wrong", "to do"))
-        counts = {"tests": str(len(verdicts)), "failures": wrong, "skipped": to_do, "errors": "0"}
-        suite = SubElement(root, "testsuite", {"name": student, **counts, "time": f"{one.seconds:.3f}"})
-        for number, name, verdict in verdicts:
-            test = SubElement(suite, "testcase", classname=student, name=f"{number.replace('.', '_')}-{name}")
-            if verdict.state == "wrong":
-                failure = SubElement(test, "failure", message=_printable(_reason(verdict, language)))
-                failure.text = _printable(verdict.report(language))
-            elif verdict.state == "to do":
-                SubElement(test, "skipped", message=Text("to do", "未做").of(language))
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(root, encoding="unicode") + "\n"
-
-
-def _printable(text: str) -> str:
-    """Drop characters that XML cannot hold."""
-    return "".join(c for c in text if c in "\n\t" or (c >= " " and c not in "\ufffe\uffff"))
 
 
 # ---------------------------------------------------------------- the page
@@ -172,7 +151,7 @@ def _cell(mark: Checked, place: str) -> str:
     states = {verdict.state for verdict in mark.functions.values()}
     has_begun = states != {"to do"}
     kind = "tw-full" if mark.points == 1 else "tw-part" if mark.points else "tw-zero" if has_begun else ""
-    text = (f"{mark.points:.2g}" if has_begun else "·") + "?" * mark.hints + "!" * mark.solution
+    text = (f"{mark.points:.2g}" if has_begun else "·") + "?" * sum(mark.hints.values()) + "!" * mark.solution
     return f'<td class="{kind}">' + (f'<a href="#{place}">{text}</a>' if "wrong" in states else text) + "</td>"
 
 
@@ -194,7 +173,7 @@ def _messages(one: Graded, student: int, language: Language) -> str:
     shown, n = "", 0
     for number, mark in one.marks.items():
         if wrong := [verdict for verdict in mark.functions.values() if verdict.state == "wrong"]:
-            each = (f'<div class="tw-wrong">{verdict_html(verdict, language)}</div>' for verdict in wrong)
+            each = (f'<div class="tw-wrong">{verdict_html(verdict, language, LEVELS[-1])}</div>' for verdict in wrong)
             shown += f'<div id="{_place(student, number)}">{"".join(each)}</div>\n'
             n += len(wrong)
     return _folded(f"{one.student}: {n} {Text('wrong', '有误').of(language)}", shown)

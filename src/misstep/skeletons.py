@@ -29,9 +29,12 @@ WORDS = Text("In your own words, as a string:", "用自己的话回答，写成�
 
 
 def start(
-    course: Course, folder: str | PathLike[str], *, language: Language | None = None
+    course: Course, folder: str | PathLike[str], *, language: Language | None = None, cure: bool = True
 ) -> tuple[list[Path], list[Path]]:
-    """Write the skeletons into a folder; return the files that are new, and those that were there and stay."""
+    """Write the skeletons into a folder; return the files that are new, and those that were there and stay.
+
+    Without `cure`, messages in this folder never say what to write instead.
+    """
     book = Workbook(course, folder)
     book.folder.mkdir(parents=True, exist_ok=True)
     has_state = (book.folder / course.state_file).exists()
@@ -42,7 +45,7 @@ def start(
     new = [book.folder / name for name in files if not (book.folder / name).exists()]
     for path in new:
         write_text(path, files[path.name])
-    book.remember(language=asked)
+    book.remember(language=asked, **({} if cure else {"cure": False}))
     return new, kept
 
 

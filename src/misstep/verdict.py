@@ -15,7 +15,7 @@ from .exercise import Exercise, Part
 from .text import Language, Text, hanging, say
 
 __all__ = [
-    *("EXPECTED", "YOURS", "Case", "Compared", "How", "State", "Unread", "Verdict"),
+    *("EXPECTED", "LEVELS", "YOURS", "Case", "Compared", "How", "State", "Unread", "Verdict"),
     *("as_json", "failing_case", "from_json", "headed", "whole"),
 ]
 
@@ -27,6 +27,9 @@ FULL = 36  # entries of an array that is shown whole
 MAX_COLUMNS = 6  # of an array that is shown whole
 MAX_LISTED = 6  # entries that are listed of an array that is not
 NOISE = 1e-12  # numbers below this are shown as zero
+LEVELS = (1, 2, 3)
+"""Of a message: where it is wrong and what kind of slip it is; which slip; the cure."""
+
 
 EXPECTED, YOURS = Text("expected", "应为"), Text("yours", "你的")
 DIFFERS = Text("{name}: expected, and yours; [..] marks what differs", "{name}：应为，你的；[..] 标出不同之处")
@@ -142,7 +145,7 @@ class Verdict:
     ----------
     state : {"to do", "done", "wrong"}
     lines : tuple of Text
-        The message, line by line; empty for what is done.
+        Where it is wrong, and what kind of slip it is, line by line; empty for what is done.
     slips : tuple of str
         The slips that give the same answer, keys of the slips of the field.
     case : Case, optional
@@ -151,6 +154,10 @@ class Verdict:
         By what it was found what is wrong: a slip of the list; an edit of the student's own code that makes it right;
         an edit of a right solution that gives the same numbers; what shows without numbers, as a type or a shape; else
         by where or how the numbers differ, or only by that they do. Empty unless wrong.
+    help, cure : tuple of Text
+        What is shown on request: the slip and its reason, or the line to look at; and what to write instead.
+    more : tuple of Text
+        Where to read on, and how to ask for more in a shell.
     """
 
     state: State
@@ -158,19 +165,28 @@ class Verdict:
     slips: tuple[str, ...] = ()
     case: Case | None = None
     how: How | Literal[""] = ""
+    help: tuple[Text, ...] = ()
+    cure: tuple[Text, ...] = ()
+    more: tuple[Text, ...] = ()
 
     def __post_init__(self) -> None:
         if self.state == "wrong" and not self.how:
             object.__setattr__(self, "how", "structure")
 
-    def message(self, language: Language) -> str:
-        """Return the message in one language."""
-        return "\n".join(piece for line in self.lines for piece in hanging(line.of(language)))
+    def message(self, language: Language, level: int = 1, *, in_shell: bool = True) -> str:
+        """Return the message: at level 1 where it is wrong and the kind of slip, at 2 the slip, at 3 the cure."""
+        lines = (*self.lines, *self.help * (level > 1), *self.cure * (level > 2), *self.more[: None if in_shell else 1])
+        return "\n".join(piece for line in lines for piece in hanging(line.of(language)))
 
-    def report(self, language: Language) -> str:
+    def report(self, language: Language, level: int = 1) -> str:
         """Return the message, and below it the failing case with its numbers."""
         shown = "" if self.case is None else self.case.text(language)
-        return self.message(language) + ("\n\n" + shown if shown else "")
+        return self.message(language, level) + ("\n\n" + shown if shown else "")
+
+    def stages(self, level: int = LEVELS[-1]) -> tuple[Text, ...]:
+        """Return what is told on request up to a level: the help and the cure, where there are any."""
+        each = (self.help * (level > 1), self.cure * (level > 2))
+        return tuple(Text(*("\n".join(x.of(k) for x in lines) for k in ("en", "zh"))) for lines in each if lines)
 
 
 class Unread(Verdict):

@@ -7,8 +7,8 @@ import shlex
 import stat
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from functools import cached_property, partial
 from importlib.util import decode_source
 from os import PathLike
@@ -16,6 +16,7 @@ from os.path import isfile  # Path's own raises where the folder may not be read
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+from zlib import crc32
 
 from .calls import shown
 from .checked import WORDS, Checked
@@ -23,16 +24,15 @@ from .course import Course
 from .errors import CourseError
 from .exercise import Exercise, Part
 from .files import write_text
-from .formulas import judge_formula, typed
 from .judge import judge
 from .rules import is_reference, reference
 from .text import Language, Text, default_language
-from .verdict import Unread, Verdict, headed
+from .verdict import LEVELS, Unread, Verdict, headed
 
-__all__ = ["MAX_FILE_BYTES", "Workbook", "content", "mine", "offered", "verdict_on_words"]
+__all__ = ["MAX_FILE_BYTES", "Workbook", "checksum", "content", "mine", "offered", "verdict_on_words"]
 
 MAX_FILE_BYTES = 1_000_000  # of a student's file; the largest of the solved ones has 20 kB
-MAX_HINTS = 100  # more than any exercise has
+MAX_HINTS = 100  # that are remembered of a function
 MIN_CHARACTERS = 12  # of an answer in words; a sentence in Chinese needs no more
 
 NO_FILE = Text("{file} is not there: `{command} start` brings it back.", "缺少 {file}：{command} start 可重新生成。")
@@ -106,15 +106,40 @@ class Workbook:
             kept = {}
         kept = kept if isinstance(kept, dict) else {}
         lists = {name: kept[name] if isinstance(kept.get(name), list) else [] for name in ("compared", "solutions")}
-        hints = kept["hints"].items() if isinstance(kept.get("hints"), dict) else ()
-        counts = {number: n for number, n in hints if isinstance(n, int) and 0 <= n < MAX_HINTS}
-        return {**kept, "hints": counts} | {name: [x for x in y if isinstance(x, str)] for name, y in lists.items()}
+        hints = kept["hints"] if isinstance(kept.get("hints"), dict) else {}
+        shown = {name: [x for x in y if isinstance(x, str)][:MAX_HINTS] for name, y in hints.items() if type(y) is list}
+        return {**kept, "hints": shown} | {name: [x for x in y if isinstance(x, str)] for name, y in lists.items()}
 
     def remember(self, **news: Any) -> None:
         """Write the hidden file."""
         self.state.update(news)
         text = json.dumps(self.state, indent=1, ensure_ascii=False)
         write_text(self.folder / self.course.state_file, text + "\n")
+
+    def remember_shown(self, section: str, **news: Any) -> bool:
+        """Write down what was shown, in a folder with the exercise that may be written to; return whether it is."""
+        if not isfile(self.path(section)):
+            return False
+        with suppress(OSError):
+            self.remember(**news)
+            return True
+        return False
+
+    def remember_hints(self, exercise: Exercise, part: Part, texts: Iterable[Text]) -> bool:
+        """Write down which hints of a function were shown, each by a checksum; return whether that was possible."""
+        hints = self.state["hints"]
+        before = hints.get(part.name, [])
+        shown = [*dict.fromkeys((*before, *map(checksum, texts)))]
+        return shown == before or self.remember_shown(exercise.section, hints={**hints, part.name: shown})
+
+    def hints(self, exercise: Exercise) -> dict[str, int]:
+        """Return how many hints were shown of each function of an exercise."""
+        return {part.name: len(self.state["hints"].get(part.name, ())) for part in exercise.parts}
+
+    @property
+    def max_level(self) -> int:
+        """The last level of a message: the cure, unless the folder was started without."""
+        return LEVELS[-2 if self.state.get("cure") is False else -1]
 
     @property
     def language(self) -> Language:
@@ -183,8 +208,6 @@ class Workbook:
             verdict = headed(exercise, part, module)
             return Unread("wrong", verdict.lines) if path.exists() else Verdict("to do", verdict.lines)
         function = vars(module).get(part.name)
-        if isinstance(function, str):
-            return judge_formula(exercise, part, function, seed=self.seed)
         if not callable(function):
             return headed(exercise, part, NO_FUNCTION.fill(name=part.name, file=path.name))
         return self.judge_function(exercise, part, function)
@@ -210,8 +233,15 @@ class Workbook:
         if exercise.answer is not None:
             verdicts[WORDS] = self.verdict_in_words(exercise)
         words = None if exercise.answer is None else self.words(exercise)
-        hints, has_solution = self.state["hints"].get(exercise.id, 0), exercise.id in self.state["solutions"]
-        return Checked(exercise, verdicts, words, self.language, hints=hints, solution=has_solution)
+        return Checked(
+            exercise,
+            verdicts,
+            words,
+            self.language,
+            max_level=self.max_level,
+            hints=self.hints(exercise),
+            solution=exercise.id in self.state["solutions"],
+        )
 
     def best(self, name: str) -> Callable[..., Any]:
         """Return the student's function where it is right, the reference where it is not yet."""
@@ -220,11 +250,15 @@ class Workbook:
         exercise, part = self.course.find_part(name)
         module = self.module(exercise.section)
         if name not in self._judging and not isinstance(module, Text) and self.verdict(exercise, part).state == "done":
-            found = vars(module)[name]
-            function: Callable[..., Any] = typed(part, found) if isinstance(found, str) else found
+            function: Callable[..., Any] = vars(module)[name]
             return function
         self.borrowed.add(name)
         return part.solution
+
+
+def checksum(text: Text) -> str:
+    """Return what stands for a text in the hidden file."""
+    return f"{crc32(text.en.encode()):08x}"
 
 
 def verdict_on_words(exercise: Exercise, words: str) -> Verdict:
@@ -282,5 +316,5 @@ def offered(name: str, book: Workbook) -> Callable[..., Any]:
         return book.best(name)(*arguments, **named)
 
     function.__name__, function.__doc__ = name, part.doc.en
-    vars(function).update(mine=name, folder=book.folder, course=book.course.module)
+    vars(function)["mine"] = name
     return function

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import base64
 import faulthandler
 import os
 import sys
@@ -16,13 +15,11 @@ from pathlib import Path
 from typing import IO, Any, TextIO
 
 from .calls import shown
-from .transfer import received
 from .verdict import Verdict, as_json, from_json
 from .workbook import Workbook
 
-__all__ = ["NOT_RECEIVED", "main"]
+__all__ = ["main"]
 
-NOT_RECEIVED = "not received"  # the answer on a function that cannot be made again here
 MAX_ADDED_BYTES = 4 << 30  # of memory that an answer uses; the largest of the references uses 0.1 GB
 MAX_FILE_BYTES = 100_000_000  # of a file that an answer writes, where the system can limit them
 MAX_PRINTED = 10_000  # characters that the answers of a folder print, a line counted as 80 at least
@@ -85,20 +82,14 @@ class _Watched(Workbook):
         else:
             faulthandler.cancel_dump_traceback_later()
 
-    def answer(self, what: str, name: str, *function: str) -> Any:
+    def answer(self, what: str, name: str) -> Any:
         """Return the words or the verdict that are asked for; the reason as a text where it cannot be judged."""
         if what == "words":
             return self.words(self.course.exercise(name))
         exercise, part = self.course.find_part(name)
-        self.search = False if what == "plain verdict" else True if function else None
+        self.search = False if what == "plain verdict" else None
         try:
-            if not function:
-                return self.verdict(exercise, part)
-            try:
-                found = received(base64.b64decode(function[0]))
-            except Exception:  # it names something that is only where it comes from
-                return NOT_RECEIVED
-            return self.judge_function(exercise, part, found)
+            return self.verdict(exercise, part)
         except BaseException as error:
             return shown(error)
 

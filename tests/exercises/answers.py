@@ -19,6 +19,6 @@ def said_of(tmp_path, text):
     names = {"np": np, "tw": tw, "mine": mine}
     exec(compile(path.read_text(encoding="utf-8"), str(path), "exec"), names)
     name = [line[4 : line.index("(")] for line in text.split("\n") if line.startswith("def ")][-1]
-    said = " ".join(judge(*COURSE.find_part(name), names[name]).message("en").split())
+    said = " ".join(judge(*COURSE.find_part(name), names[name]).message("en", level=3).split())
     linecache.clearcache()
     return said

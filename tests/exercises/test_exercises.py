@@ -78,18 +78,24 @@ def test_functions_have_names_of_their_own():
 
 
 def texts(e):
-    yield from (e.title, e.text, *e.hints, *([e.answer] if e.answer else []))
+    yield from (e.title, e.text, *([e.answer] if e.answer else []))
     for part in e.parts:
-        yield from (part.doc, *(p.text for p in part.properties), *part.reasons.values(), *part.titles.values())
+        yield from (
+            part.doc,
+            *part.hints,
+            *(p.text for p in part.properties),
+            *part.reasons.values(),
+            *part.titles.values(),
+        )
 
 
 @pytest.mark.parametrize("e", HERE, ids=lambda e: e.id)
 def test_every_text_is_there_in_both_languages(e):
     assert all(t.en.strip() and t.zh.strip() for t in texts(e))
-    for t in (e.title, e.text, *e.hints, *([e.answer] if e.answer else [])):
+    for t in (e.title, e.text, *([e.answer] if e.answer else []), *(x for part in e.parts for x in part.hints)):
         assert not any("\u4e00" <= c <= "\u9fff" for c in t.en), t.en
         assert any("\u4e00" <= c <= "\u9fff" for c in t.zh), t.zh
-    assert len(e.hints) >= 2
+    assert all(part.hints for part in e.parts)
     assert e.parts
     assert e.answer is not None or e.kind in ("code", "number")
     for part in e.parts:
@@ -99,7 +105,7 @@ def test_every_text_is_there_in_both_languages(e):
 def test_the_catalogue_of_slips():
     assert len(SLIPS) >= 40
     for slip in SLIPS.values():
-        assert all(isinstance(t, Text) and t.en and t.zh for t in (slip.title, slip.why))
+        assert all(isinstance(t, Text) and t.en and t.zh for t in (slip.title, slip.why, slip.kind))
         assert slip.section in COURSE.sections
     titles = [s.title.en for s in SLIPS.values()]
     assert len(titles) == len(set(titles))
@@ -108,7 +114,8 @@ def test_the_catalogue_of_slips():
 def test_no_two_files_define_one_slip():
     keys = [key for name in slips.FILES for key in read("twistwrench.exercises.slips", name)]
     assert sorted(keys) == sorted(SLIPS)
-    assert sorted(file.stem for file in DATA if file.parent.name == "slips") == sorted(slips.FILES)
+    assert sorted(file.stem for file in DATA if file.parent.name == "slips") == sorted((*slips.FILES, "kinds"))
+    assert {slip.kind for slip in SLIPS.values()} == set(slips.KINDS.values())
 
 
 def leaves(table, path=""):
@@ -128,15 +135,15 @@ def test_a_data_file_holds_what_is_used_and_nothing_else(file):
     assert {where for where, _, language in places if language == "en"} == {
         where for where, _, language in places if language == "zh"
     }
-    assert {language for _, _, language in places} <= {"en", "zh", "section"}
+    assert {language for _, _, language in places} <= {"en", "zh", "section", "kind"}
     if file.parent.name == "items" and file.stem != "shared":
         owners = {e.id: e for e in HERE if f"ex_{e.id.replace('.', '_')}" == file.stem}
         own = {part.name: part for e in HERE for part in e.parts if part.solution.__module__.endswith(f".{file.stem}")}
         for where in found:
             first, _, rest = where.partition(".")
             kind = rest.split(".")[0]
-            assert (first in own and kind in ("doc", "reasons", "titles", "properties")) or (
-                owners and first in ("title", "text", "answer", "hints")
+            assert (first in own and kind in ("doc", "hints", "reasons", "titles", "properties")) or (
+                owners and first in ("title", "text", "answer")
             ), where
         assert all(len(part.properties) == len(part.residuals) for part in own.values())
 
@@ -236,7 +243,7 @@ def test_a_slip_is_named(e, part, slip, seed):
     assert verdict.state == "wrong"
     assert slip in verdict.slips
     for language in ("en", "zh"):
-        message = verdict.message(language)
+        message = verdict.message(language, level=2)
         assert bare(part.titles.get(slip, SLIPS[slip].title).of(language)) in bare(message)
         if slip in part.reasons:
             assert bare(part.reasons[slip].of(language)) in bare(message)
@@ -431,7 +438,7 @@ def test_a_model_answer_waits_for_the_attempt(tmp_path):
 def message(name, function, language="en"):
     verdict = judge(*COURSE.find_part(name), function)
     assert verdict.state == "wrong"
-    return " ".join(verdict.message(language).split())
+    return " ".join(verdict.message(language, level=3).split())
 
 
 def spoilt(change):

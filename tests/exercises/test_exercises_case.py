@@ -120,7 +120,7 @@ def test_an_exception_and_an_endless_loop_have_their_case_too(tmp_path):
 
 def test_a_measurement_of_too_few_calls_is_not_shown_as_a_number():
     found = verdict("time_ratio", lambda first, second, calls, clock: 3.0 + 0 * clock())
-    assert "are not called `calls` times" in found.message("en")
+    assert "are not called `calls` times" in found.message("en", level=2)
     assert found.case.compared == ()
 
 

@@ -49,7 +49,7 @@ def said(folder, name, language="en", seed=None):
     """Return the verdict on a function, its message on one line; with the failing case where a seed is given."""
     with opened(COURSE, folder, language=language, seed=seed, time_limit=LIMIT) as book:
         verdict = book.verdict(*COURSE.find_part(name))
-    message = verdict.message(language) if seed is None else verdict.report(language)
+    message = verdict.message(language, 3) if seed is None else verdict.report(language, 3)
     return verdict.state, " ".join(message.split())
 
 

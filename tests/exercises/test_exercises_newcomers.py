@@ -98,7 +98,7 @@ def test_a_number_that_is_written_there_is_not_added_up(tmp_path):
 
 def test_numbers_rounded_to_two_digits_are_nearly_right():
     exercise, part = COURSE.find_part("skew")
-    said = judge(exercise, part, lambda w: np.round(part.solution(w), 2)).message("en")
+    said = judge(exercise, part, lambda w: np.round(part.solution(w), 2)).message("en", level=3)
     assert "right to 2 digits only" in said
 
 
@@ -126,7 +126,7 @@ TWO_WAYS = [("torques_two_ways", by_rnea, by_matrix), ("forward_dynamics_two_way
 def test_two_ways_are_not_one(name, first, second):
     exercise, part = COURSE.find_part(name)
     for way in (first, second):
-        said = judge(exercise, part, lambda *x, way=way: (way(*x), way(*x))).message("en")
+        said = judge(exercise, part, lambda *x, way=way: (way(*x), way(*x))).message("en", level=3)
         assert "the same to the last bit" in " ".join(said.split())
 
 

@@ -66,8 +66,8 @@ SPREAD = Part(
 )
 FIELD = Field(
     {
-        "falls-up": Slip(said("gravity pushes up"), said("It pulls down: −g t²/2."), "1"),
-        "divided-by-n": Slip(said("divided by n"), said("One number is used up by the mean: n − 1."), "2"),
+        "falls-up": Slip(said("gravity pushes up"), said("It pulls down: −g t²/2."), "1", said("sign")),
+        "divided-by-n": Slip(said("divided by n"), said("The mean uses up one number: n − 1."), "2", said("factor")),
     }
 )
 

@@ -80,10 +80,12 @@ def test_a_figure_becomes_a_picture():
 @pytest.mark.parametrize(
     ("language", "slip"), [("en", "the skew-symmetric matrix is transposed"), ("zh", "反对称矩阵")]
 )
-def test_a_check_names_the_slip_and_no_command(language, slip):
+def test_a_check_says_what_kind_of_slip_it_is_and_the_button_which(language, slip):
     [(kind, text)] = classroom.check("49.0.1", TRANSPOSED, "", language)
     assert kind == "wrong"
-    assert slip in text
+    assert {"en": "Kind of slip: sign.", "zh": "错误类型：符号。"}[language] in text
+    assert slip not in text
+    assert slip in classroom.hint("49.0.1", TRANSPOSED, "", language)[0][1].replace("\n", " ")
     assert "twistwrench exercises" not in text
     right = {"49.0.1": "def skew(w):\n    return tw.skew(w)\n"}
     assert classroom.check("49.0.1", right, "", language)[0][0] == "right"

@@ -25,8 +25,8 @@ from tqdm import tqdm
 ANSWERS = Path("/answers")
 TO_BE_HAD = {"matplotlib", "mpmath", "sympy"}
 """Packages that are loaded when a cell imports them."""
-IN_THE_SHELL = re.compile(r"[;；][^;；\n]*twistwrench exercises hint [\w.]+|\n+.*twistwrench exercises solution.*")
-"""What a message says of commands, which a page has buttons for."""
+IN_THE_SHELL = re.compile(r"\n+.*twistwrench exercises solution.*")
+"""What the last hint says of a command, which a page has a button for."""
 ANSWER = re.compile(r"^# -{98}\n# (\S+)  .*\n(?:#.*\n)*# -{98}\n([\s\S]*?)(?=^# -{98}\n|\Z)", re.MULTILINE)
 """In a student's file, the number of an exercise and what stands below its text."""
 LINE = re.compile(r"(\bline |第 )(\d+)\b")
@@ -191,8 +191,8 @@ def check(number: str, answers: dict[str, str], state: str, language: str) -> li
             if package := missing(error):
                 return [("needs", package)]
             raise
-    text = IN_THE_SHELL.sub("", checked_html(verdict, hints=False))
-    return [*outputs, ("right" if verdict.right else "wrong", in_the_cell(text, number, answers[number]))]
+    text = in_the_cell(checked_html(verdict, hints=False), number, answers[number])
+    return [*outputs, ("right" if verdict.right else "wrong", text)]
 
 
 def in_the_cell(message: str, number: str, answer: str) -> str:
@@ -210,16 +210,18 @@ def in_the_cell(message: str, number: str, answer: str) -> str:
 
 
 def hint(number: str, answers: dict[str, str], state: str, language: str) -> list[Output]:
-    """Return the next hint; after the last one a solution."""
+    """Return the next hint for the first function that is not right; after the last one a solution."""
     from misstep.workbook import Workbook
     from twistwrench import exercises
     from twistwrench.exercises.chapter import COURSE
 
-    book = Workbook(COURSE, folder(answers, state, language))
-    given = book.state["hints"].get(number, 0)
-    last = len(COURSE.exercise(number).hints)
-    text = exercises.solution(number, book.folder) if given >= last else exercises.hint(number, book.folder)
-    return [("hint", IN_THE_SHELL.sub("", text))]
+    place = folder(answers, state, language)
+    before = Workbook(COURSE, place).state["hints"]
+    text = exercises.hint(number, place)
+    if Workbook(COURSE, place).state["hints"] == before:
+        text = exercises.solution(number, place)
+    text = IN_THE_SHELL.sub("", text)
+    return [("hint", in_the_cell(text, number, answers[number]) if number in answers else text)]
 
 
 def answers(files: dict[str, str]) -> list[Output]:

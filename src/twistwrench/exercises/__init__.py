@@ -30,7 +30,7 @@ commands   ``twistwrench exercises``
 
 >>> from twistwrench.exercises import hint
 >>> print(hint("49.3.2", language="en").splitlines()[0])
-49.3.2 A pure rotation: hint 1 of 2
+49.3.2 rotation_transform: hint 1 of 1
 """
 
 from typing import TYPE_CHECKING, Any

@@ -19,7 +19,9 @@ from .chapter import COURSE
 __all__ = ["Checked", "Status", "case", "check", "hint", "mine", "solution", "start", "status"]
 
 
-def start(folder: str | PathLike[str], *, language: Language | None = None) -> tuple[list[Path], list[Path]]:
+def start(
+    folder: str | PathLike[str], *, language: Language | None = None, cure: bool = True
+) -> tuple[list[Path], list[Path]]:
     """Write the skeletons of all exercises into a folder. Existing files are not touched.
 
     Parameters
@@ -28,13 +30,15 @@ def start(folder: str | PathLike[str], *, language: Language | None = None) -> t
         Made if need be.
     language : {"en", "zh"}, optional
         Of texts and messages; that of the environment unless given.
+    cure : bool
+        Whether the student may ask what to write instead of a wrong line.
 
     Returns
     -------
     new, kept : list of path
         The files that were written, and those that were there before.
     """
-    return skeletons.start(COURSE, folder, language=language)
+    return skeletons.start(COURSE, folder, language=language, cure=cure)
 
 
 def mine(name: str) -> Callable[..., Any]:
@@ -74,7 +78,7 @@ def check(
     language: Language | None = None,
     seed: int | None = None,
     time_limit: float = TIME_LIMIT_S,
-    **formulas: str,
+    level: int = 1,
 ) -> Checked:
     """Check an exercise where it is written: in a notebook, a script or a shell.
 
@@ -92,9 +96,10 @@ def check(
     seed : int, optional
         Of the random cases; drawn anew unless given.
     time_limit : float
-        Seconds for one call, in a process of its own; 0 for none, and no other process.
-    formulas : str
-        Answers typed as formulas, by the names of the functions: ``check("49.0.2", act="R*x + p")``. SymPy reads them.
+        Seconds for one call; 0 for none.
+    level : {1, 2, 3}
+        How much is told of a wrong answer: where it is wrong and what kind of slip it is; also which slip, or the line
+        to look at; also what to write instead. What is told beyond 1 counts as hints in a folder with the exercise.
 
     Returns
     -------
@@ -106,7 +111,7 @@ def check(
     NameNotFound
         If there is no such exercise, or it has no function of that name.
     CourseError
-        If there is nothing to check.
+        If there is nothing to check, or no such level.
 
     Examples
     --------
@@ -126,8 +131,8 @@ def check(
         language=language,
         seed=seed,
         time_limit=time_limit,
+        level=level,
         caller=sys._getframe(1).f_globals,
-        formulas=formulas,
     )
 
 
@@ -172,12 +177,14 @@ def hint(
     every: bool = False,
     language: Language | None = None,
 ) -> str:
-    """Return the next hint for an exercise. How many were given is remembered in the folder.
+    """Return the next hint for a function. Which were given is remembered in the folder.
+
+    Of a wrong answer in the folder the first hint says which slip it is, and the last what to write instead.
 
     Parameters
     ----------
     name : str
-        The number of the exercise, as "49.3.1", or the name of one of its functions.
+        Of the function; or the number of an exercise, as "49.3.1", for the first of its functions that is not right.
     folder : str or path
         One that `start` has filled. In any other, nothing is remembered, and each call returns the first hint.
     again : bool
@@ -199,7 +206,7 @@ def hint(
     Examples
     --------
     >>> print(hint("49.3.1", language="en").splitlines()[0])
-    49.3.1 A pure translation: hint 1 of 2
+    49.3.1 translation_transforms: hint 1 of 2
     """
     return helping.hint(COURSE, name, folder, again=again, every=every, language=language)
 

@@ -1,4 +1,4 @@
-"""The catalogue of slips: a TOML file for each kind, a table for each slip."""
+"""The catalogue of slips: TOML files with a table for each slip; one of them has the words for what kind it is."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ FILES = (
     *("basics", "order", "algebra", "frames", "contact", "inertia", "bodies", "dynamics"),
     *("recursion", "tree", "measuring", "floating", "standing", "pipeline", "pinocchio"),
 )
+KINDS = {key: as_text(entry) for key, entry in read(__name__, "kinds").items()}
 
 SLIPS = {
-    key: Slip(as_text(entry["title"]), as_text(entry["why"]), entry["section"])
+    key: Slip(as_text(entry["title"]), as_text(entry["why"]), entry["section"], KINDS[entry["kind"]])
     for name in FILES
     for key, entry in read(__name__, name).items()
 }
