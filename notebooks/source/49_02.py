@@ -220,9 +220,11 @@ ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.09), ncols=2)
 plt.show()
 # %% [markdown] lang="en"
 # The field turns about a vertical line, 0.8 / 0.6 = 1.33 m to the left of the base: the centre of the curve that the
-# robot walks.
+# robot walks. What if the axis moves away, or leans? On the site you drag it, and see which of the six numbers stay:
+# [A twist is a field](../hands/field.md).
 # %% [markdown] lang="zh"
 # 这个场绕着一条竖直线转,它在基座左侧 0.8 / 0.6 = 1.33 m 处:机器人所走弧线的圆心。
+# 轴移远一些、歪一些会怎样?在网站上可以拖动它,看六个数里哪些不变:[twist 是一个场](../hands/field.md)。
 # %% [markdown] lang="en"
 # ## From a twist to a motion: hat and exp
 #
@@ -299,7 +301,8 @@ print(
 )
 assert stretched > 10
 # %% [markdown] lang="en"
-# That is why `model.integrate` uses exp, and why a quaternion that is advanced by $q + \dot q\,dt$ must be normalised.
+# That is why `model.integrate` uses exp, and why a quaternion that is advanced by $q + \dot q\,dt$ must be normalised. How
+# many steps would be enough? On the site you choose their number: [exp against 1 + [V] t](../hands/exponential.md).
 #
 # ## The screw
 #
@@ -310,7 +313,8 @@ assert stretched > 10
 # $\boldsymbol\omega\cdot\boldsymbol v / |\boldsymbol\omega|^2$, metres along per radian. The pitch is negative for a
 # left-handed screw, zero for a hinge, infinite for a slide.
 # %% [markdown] lang="zh"
-# 所以 `model.integrate` 用的是 exp,而按 $q + \dot q\,dt$ 推进的四元数必须重新归一化。
+# 所以 `model.integrate` 用的是 exp,而按 $q + \dot q\,dt$ 推进的四元数必须重新归一化。要分多少步才够?在网站上可以自己选步数:
+# [exp 与 1 + [V] t](../hands/exponential.md)。
 #
 # ## 螺旋
 #
