@@ -439,23 +439,7 @@ for order, quaternion in {"x, y, z, w": [s, 0, 0, s], "w, x, y, z": [s, s, 0, 0]
     print(f"{order}: the robot's back points to {up.round(3) + 0.0}")
     assert np.allclose(up, [0, -1, 0]) == (order == "x, y, z, w")
 # %% [markdown] lang="en"
-# ## Exercises
-#
-# - **49.1.1** nq and nv of Go2; with Euler angles; why a quaternion
-# - **49.1.2** why an arm has no $J_c^T\lambda$, and what changes when it polishes
-#
-# `twistwrench exercises start my_answers` puts them into a folder; `python -m pytest` there checks your answers;
-# `twistwrench exercises hint 49.1.1` helps. Next: notebook 49.2.
-# %% [markdown] lang="zh"
-# ## 练习
-#
-# - **49.1.1** Go2 的 nq 与 nv;改用欧拉角;为什么选四元数
-# - **49.1.2** 机械臂为什么没有 $J_c^T\lambda$,抛光时要怎样改
-#
-# `twistwrench exercises start my_answers --language zh` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
-# `twistwrench exercises hint 49.1.1` 给提示。下一个:笔记本 49.2。
-# %% [markdown] lang="en"
-# ## Appendix: for engineers
+# ## For engineers
 #
 # Nothing later needs this; come back to it when you write a program.
 #
@@ -463,7 +447,7 @@ for order, quaternion in {"x, y, z, w": [s, 0, 0, s], "w, x, y, z": [s, s, 0, 0]
 #
 # The word "recursive" does not prove it. Measure it on your own machine, and count the cross products in the source:
 # %% [markdown] lang="zh"
-# ## 附录:写给工程师
+# ## 给工程师
 #
 # 后面用不到这一部分,等到自己写程序时再看也不迟。
 #
@@ -531,3 +515,19 @@ else:
     assert np.abs(theirs.linear - ours[3:]).max() < 1e-12 * np.abs(ours).max()
     assert np.abs(theirs.angular - ours[:3]).max() < 1e-12 * np.abs(ours).max()
     print("foot", ours[3:].round(3), "m/s, in both")
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.1.1** nq and nv of Go2; with Euler angles; why a quaternion
+# - **49.1.2** why an arm has no $J_c^T\lambda$, and what changes when it polishes
+#
+# `twistwrench exercises start my_answers` puts them into a folder; `python -m pytest` there checks your answers;
+# `twistwrench exercises hint 49.1.1` helps. Next: notebook 49.2.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.1.1** Go2 的 nq 与 nv;改用欧拉角;为什么选四元数
+# - **49.1.2** 机械臂为什么没有 $J_c^T\lambda$,抛光时要怎样改
+#
+# `twistwrench exercises start my_answers --language zh` 把练习放进一个文件夹,在那里运行 `python -m pytest` 检查答案,
+# `twistwrench exercises hint 49.1.1` 给提示。下一个:笔记本 49.2。

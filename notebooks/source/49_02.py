@@ -415,23 +415,7 @@ ax.set(xlabel="|ω| [rad/s], while v = 1 m/s", ylabel="error")
 ax.legend()
 plt.show()
 # %% [markdown] lang="en"
-# ## Exercises
-#
-# - **49.2.1** the base turns, and the foot gets a linear velocity: why
-# - **49.2.2** hat and exp of a walk on a circle, exactly
-#
-# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.2.1`.
-# Next: notebook 49.3.
-# %% [markdown] lang="zh"
-# ## 练习
-#
-# - **49.2.1** 只有基座在转,脚为什么有线速度
-# - **49.2.2** 沿圆行走的 hat 与 exp,要精确解
-#
-# `twistwrench exercises start my_answers --language zh`,然后在那个文件夹里运行 `python -m pytest`;`twistwrench exercises hint 49.2.1` 给提示。
-# 下一个:笔记本 49.3。
-# %% [markdown] lang="en"
-# ## Appendix: for engineers
+# ## For engineers
 #
 # Nothing later needs this; come back to it when you write a program.
 #
@@ -441,7 +425,7 @@ plt.show()
 # $\boldsymbol v$ does: in `Motion`, `Force`, Jacobians, and the base's part of `v`. Only `tw.bridge` swaps. The chapter's
 # listing prints `data.v[0]`, which is the world's twist, always zero; the base is body 1.
 # %% [markdown] lang="zh"
-# ## 附录:写给工程师
+# ## 给工程师
 #
 # 后面用不到这一部分,等到自己写程序时再看也不迟。
 #
@@ -506,3 +490,19 @@ exact = placed(1j * h).imag / h
 print(f"error of the difference {np.abs(T_dot - exact).max():.1e}")
 assert np.allclose(tw.vee(np.linalg.inv(T) @ exact), body, rtol=1e-14, atol=1e-14)
 assert 1e-13 < np.abs(T_dot - exact).max() < 1e-9
+# %% [markdown] lang="en"
+# ## Exercises
+#
+# - **49.2.1** the base turns, and the foot gets a linear velocity: why
+# - **49.2.2** hat and exp of a walk on a circle, exactly
+#
+# `twistwrench exercises start my_answers`, then `python -m pytest` in that folder; `twistwrench exercises hint 49.2.1`.
+# Next: notebook 49.3.
+# %% [markdown] lang="zh"
+# ## 练习
+#
+# - **49.2.1** 只有基座在转,脚为什么有线速度
+# - **49.2.2** 沿圆行走的 hat 与 exp,要精确解
+#
+# `twistwrench exercises start my_answers --language zh`,然后在那个文件夹里运行 `python -m pytest`;`twistwrench exercises hint 49.2.1` 给提示。
+# 下一个:笔记本 49.3。
