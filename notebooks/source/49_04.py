@@ -544,7 +544,7 @@ ax.hist(98.1 * np.abs(feet[:, 2]) / feet[:, 5], bins=60, color=plot.COLOURS["sky
 ax.axvline(98.1 * mu * reach, color=plot.COLOURS["black"], label="the bound")
 largest_moment.draw(ax)
 ax.set(xlabel="moment about the normal, of 98.1 N on the sole [N m]", yticks=[])
-ax.legend(loc="upper right")
+ax.legend(loc="upper center")
 plt.show()
 print(f"friction gives {mu * twisting[5] * reach:.1f} N m at most, not {twisting[2]:.0f}")
 assert twisting[2] > 10 * mu * twisting[5] * reach
