@@ -73,7 +73,7 @@ BRACKETS = rf"{NOT_WORDS}| ?\((?:{NOT_WORDS}|\([^()`$]*\)|[^()`$])*\) ?"
 KEPT = rf"{NOT_WORDS}|\((?:{NOT_WORDS}|[^()])*\)|(?<=\d)[,:](?=\d{{2}})|:(?=//)"
 HALF_WIDTH = rf"{KEPT}|([,;:?!]) ?"
 """In Chinese every mark is as wide as the characters, also beside a unit, a number or a formula. As they are typed stay
-code, formulas, what stands in narrow brackets, such as (ω, v), a number or a time, such as 1,000 and 12:30, and links."""
+code, formulas, what is in narrow brackets, such as (ω, v), a number or a time, such as 1,000 and 12:30, and links."""
 
 
 def sources() -> list[Path]:
