@@ -307,6 +307,7 @@ assert np.abs(slow - fast).max() < 1e-12 * np.abs(slow).max()
 # 两条思路在本章汇合。轴的上方是用六个数描述直线、运动和力的人;下方是让多体运动的计算时间只随 $N$ 增长的人,他们起初用的是三维向量。
 # Featherstone 把两者合到了一起。
 # %%
+ax = plot.axes_2d(size=(12, 4.5))
 years = [
     (1763, 1, "Mozzi: a turn about a line\nand a slide along it"),
     (1830, 2.2, "Chasles: the same\nfor two places of a body"),
@@ -321,7 +322,6 @@ years = [
     (2008, 2.2, "Featherstone's book;\nOrin, Goswami: 49.10"),
     (2019, -1, "Pinocchio"),
 ]
-ax = plot.axes_2d(size=(12, 4.5))
 ax.axhline(0, color=plot.COLOURS["black"], linewidth=1.5)
 for year, height, text in years:
     colour = plot.COLOURS["blue" if height > 0 else "orange"]
@@ -342,10 +342,10 @@ plt.show()
 #
 # 机械臂是固定的,Go2 不是。它的基座带来六个没有电机的自由度。两个运动方程的左边一样,右边不同:
 # %%
+figure, (left, right_hand) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
 arm, posture = tw.load("planar_arm"), np.array([1.3, -0.9, -0.9])
 stand = model.standing()
 held = tw.static_equilibrium(model, stand)
-figure, (left, right_hand) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
 for ax, robot, x in [(left, arm, posture), (right_hand, model, stand)]:
     plot.side_view(robot, x, com=False, ax=ax)
     first = 2 if robot.base == "floating" else 1

@@ -24,6 +24,8 @@ from twistwrench import plot
 q[:2] = 1.0, 0.5
 v = np.zeros(model.nv)
 v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
+
+
 # %% [markdown] lang="en"
 # ## One motion, two twists
 #
@@ -50,7 +52,14 @@ for seconds, colour in [(0, "grey"), (1.0, "sky")]:
 for frame, name in [(np.eye(4), "the world"), (T, "T(0)"), (T_later, "T(1 s)")]:
     for k, colour in enumerate(plot.XYZ[:2]):
         ax.quiver(
-            *frame[:2, 3], *0.3 * frame[:2, k], color=colour, angles="xy", scale_units="xy", scale=1, width=0.007, zorder=3
+            *frame[:2, 3],
+            *0.3 * frame[:2, k],
+            color=colour,
+            angles="xy",
+            scale_units="xy",
+            scale=1,
+            width=0.007,
+            zorder=3,
         )
     ax.text(*(frame[:2, 3] - 0.13 * frame[:2, 1]), name, ha="center", va="top", fontsize=10)
 corners = np.array([[0, 0, 0, 1], [0.3, 0, 0, 1], [0, 0.3, 0, 1]]).T  # three points of the body
@@ -123,6 +132,8 @@ assert np.abs(np.diag(quotients[0.01])).max() < 0.002
 # %%
 size_of_v = tw.ask("49.2-origin", ...)
 size_of_v
+
+
 # %%
 def six(quotient):
     """Read ω and v off such a matrix."""
@@ -196,10 +207,10 @@ assert np.allclose(plot.point_velocity(spatial, centre), 0, atol=1e-15)
 for name in ("base", "FR_foot", "RL_calf"):
     assert np.allclose(tw.frame_jacobian(model, q, name, "world") @ v, spatial, atol=1e-15)
 # %%
+ax = plot.axes_2d(size=(7, 7.6))
 grid = np.stack(np.meshgrid(np.arange(-0.6, 2.3, 0.3), np.arange(-0.6, 2.3, 0.3)), axis=-1).reshape(-1, 2)
 field = plot.point_velocity(spatial, np.pad(grid, [(0, 0), (0, 1)]))  # of points on the floor
 
-ax = plot.axes_2d(size=(7, 7.6))
 plot.top_view(model, q, ax=ax)
 arrow = {"angles": "xy", "scale_units": "xy", "scale": 4, "zorder": 3}  # 1 m/s is 0.25 m long
 ax.quiver(*grid.T, *field[:, :2].T, color=plot.COLOURS["sky"], width=0.004, **arrow)
@@ -207,7 +218,12 @@ shown = {"vermilion": (np.zeros(3), "at the origin: v of the spatial twist")}
 shown |= {"black": (p, "at the base: v of its body twist"), "purple": (foot, "at the foot: v of its body twist")}
 for colour, (point, label) in shown.items():
     ax.quiver(
-        *point[:2], *plot.point_velocity(spatial, point)[:2], color=plot.COLOURS[colour], label=label, width=0.008, **arrow
+        *point[:2],
+        *plot.point_velocity(spatial, point)[:2],
+        color=plot.COLOURS[colour],
+        label=label,
+        width=0.008,
+        **arrow,
     )
 ax.plot(*centre[:2], "o", color=plot.COLOURS["blue"], markersize=9, label="here nothing moves")
 if centre_of_curve.guess is not None:
@@ -218,6 +234,8 @@ if size_of_v.guess is not None:
 ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", title="from above", xlim=(-0.6, 2.3), ylim=(-0.6, 2.2))
 ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.09), ncols=2)
 plt.show()
+
+
 # %% [markdown] lang="en"
 # The field turns about a vertical line, 0.8 / 0.6 = 1.33 m to the left of the base: the centre of the curve that the
 # robot walks. What if the axis moves away, or leans? On the site you drag it, and see which of the six numbers stay:
@@ -277,9 +295,9 @@ tw.ask("49.2-straight", ...)
 step = np.eye(4) + tw.hat(V) * times[1]
 straight = np.array([np.linalg.matrix_power(step, k) for k in range(13)])  # the same in twelve straight steps
 
+ax = plot.axes_2d(size=(6, 6.5))
 box = np.array([[0.3, 0.18], [0.3, -0.18], [-0.3, -0.18], [-0.3, 0.18]])
 box = np.pad(np.concatenate([box, [[0.5, 0]]]), [(0, 0), (0, 2)], constant_values=(0, 1)) * [1, 1, 0, 1]
-ax = plot.axes_2d(size=(6, 6.5))
 ax.plot(*tw.exp6(np.linspace(0, times[-1], 200)[:, None] * V).translation[:, :2].T, color=plot.COLOURS["grey"])
 for placements, colour, name in [
     (walk.matrix(), "sky", "exp([V] t)"),

@@ -77,11 +77,12 @@ else:
 # 地面推脚,脚也推地面:两个力大小相等、方向相反,而且在*同一条*直线上。于是对任何一点的力矩也相反,牛顿第三定律对六个数全都成立。
 # 地面给脚的 wrench 是 $\boldsymbol F$,脚给地面的就是 $-\boldsymbol F$,两者在同一个坐标系里。图中把机器人从地面提了起来,好看清哪个力作用在哪个物体上。
 # %%
+ax = plot.axes_2d(size=(8, 5.5))
 stand, gap = model.standing(), 0.15  # m: the robot is drawn higher by this
 held = tw.static_equilibrium(model, stand)
 lifted = stand.copy()
 lifted[2] += gap
-ax = plot.side_view(model, lifted, com=False, ax=plot.axes_2d(size=(8, 5.5)))
+plot.side_view(model, lifted, com=False, ax=ax)
 ax.fill([-0.5, 0.5, 0.5, -0.5], [-0.17, -0.17, 0, 0], facecolor="0.9", edgecolor="0.4")
 for name, force in list(zip(model.feet, held.forces))[1::2]:
     x, _, z = tw.frame_placement(model, stand, name).translation

@@ -34,10 +34,10 @@ rng = np.random.default_rng(5)
 # 刚体有质量 $m$、位于 $\boldsymbol c$ 的质心 $C$ 和关于质心的惯量 $I_c$：1 + 3 + 6 个数。它的 twist 是
 # $(\boldsymbol\omega, \boldsymbol v)$,其中 $\boldsymbol v = \boldsymbol v_O$ 是坐标系原点 $O$ 的速度。
 # %%
+ax = plot.axes_2d(size=(8, 4.6))
 c, v_O, w = np.array([1.1, 0.45]), np.array([0.55, -0.15]), 0.7  # in a plane; ω points at you
 turned = w * np.array([-c[1], c[0]])  # ω × c
 around = np.linspace(0, 2 * np.pi, 100)
-ax = plot.axes_2d(size=(8, 4.6))
 tilt = np.array([[0.9, -0.43], [0.43, 0.9]])
 ax.fill(*(tilt @ [1.5 * np.cos(around), 0.75 * np.sin(around)] + 0.75 * c[:, None]), color="0.9", zorder=0)
 for start, arrow, colour, text, shift in [
@@ -54,7 +54,9 @@ for start, arrow, colour, text, shift in [
     ax.text(*(tip + shift), text, color=plot.COLOURS[colour], fontsize=13)
 arc = np.linspace(0.4 * np.pi, 1.75 * np.pi, 50)
 ax.plot(0.22 * np.cos(arc), 0.22 * np.sin(arc), color=plot.COLOURS["vermilion"])
-ax.plot(0.22 * np.cos(arc[-1]), 0.22 * np.sin(arc[-1]), marker=(3, 0, 75), color=plot.COLOURS["vermilion"], markersize=9)
+ax.plot(
+    0.22 * np.cos(arc[-1]), 0.22 * np.sin(arc[-1]), marker=(3, 0, 75), color=plot.COLOURS["vermilion"], markersize=9
+)
 ax.text(-0.42, 0.02, r"$\omega$", color=plot.COLOURS["vermilion"], fontsize=14)
 for point, name in [((0, 0), "O"), (c, "C")]:
     ax.plot(*point, "o", color=plot.COLOURS["black"], markersize=7)
