@@ -75,7 +75,7 @@ else:
 # ## 作用力与反作用力
 #
 # 地面推脚,脚也推地面:两个力大小相等、方向相反,而且在*同一条*直线上。于是对任何一点的力矩也相反,牛顿第三定律对六个数全都成立。
-# 地面给脚的 wrench 是 $\boldsymbol F$,脚给地面的就是 $-\boldsymbol F$,两者在同一个坐标系里。图中把机器人从地面提了起来,好看清哪个力作用在哪个物体上。
+# 地面给脚的 wrench 是 $\boldsymbol F$,脚给地面的就是 $-\boldsymbol F$,两者在同一个坐标系里。图中把机器人从地面提了起来,好看清每个力作用在谁身上。
 # %%
 ax = plot.axes_2d(size=(8, 5.5))
 stand, gap = model.standing(), 0.15  # m: the robot is drawn higher by this
@@ -110,7 +110,7 @@ plt.show()
 # only the relative motion counts, and that is the knee's. Of the six numbers in the joint the motor has one, and it does
 # all the work.
 # %% [markdown] lang="zh"
-# 两者作用在不同的物体上,所以不会抵消。列一个刚体的平衡,只写别人作用在*它上面*的,不写它作用在别人上的。关节里也是一样。大腿把
+# 一个作用在机器人上,一个作用在地面上,所以不会抵消。列一个刚体的平衡,只写别人作用在*它上面*的,不写它作用在别人上的。关节里也是一样。大腿把
 # $\boldsymbol F$ 传给小腿,小腿还给大腿 $-\boldsymbol F$。两者的总功率是
 #
 # $$\boldsymbol F^T \boldsymbol V_{calf} - \boldsymbol F^T \boldsymbol V_{thigh} =
