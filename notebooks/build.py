@@ -64,13 +64,16 @@ METADATA = {
 HAN = "\u4e00-\u9fff"
 LINE_END = rf"[{HAN},;:?!、。]\n[{HAN}]|[,;:?!、。]\n([A-Za-z]|\*\*|\$(?!\$)|`(?!``))"
 """Where a line ends and no blank may show."""
-HALF_WIDTH = rf"(?<=[{HAN}）])[,;:?!] ?|[,;:?!](?=[{HAN}])|(?<=[`$])[,;:] ?(?=[`$A-Za-z]|\n)"
 FULL_WIDTH = {ord(mark): ord(mark) + 0xFEE0 for mark in "(),;:?!"}
 NOT_WORDS = r"`[^`]+`|\$\$[^$]+\$\$|\$[^$]+\$|\]\([^)]*\)"
 QUOTES = rf'{NOT_WORDS}|"([^"]*)"'
 UNITS = r"(?<![A-Za-z])(N m|kg m)(?![A-Za-z])"
 """Products of units, which Chinese writes with a dot."""
 BRACKETS = rf"{NOT_WORDS}| ?\((?:{NOT_WORDS}|\([^()`$]*\)|[^()`$])*\) ?"
+KEPT = rf"{NOT_WORDS}|\((?:{NOT_WORDS}|[^()])*\)|(?<=\d)[,:](?=\d{{2}})|:(?=//)"
+HALF_WIDTH = rf"{KEPT}|([,;:?!]) ?"
+"""In Chinese every mark is as wide as the characters, also beside a unit, a number or a formula. As they are typed stay
+code, formulas, what is in narrow brackets, such as (ω, v), a number or a time, such as 1,000 and 12:30, and links."""
 
 
 def sources() -> list[Path]:
@@ -110,7 +113,7 @@ def chinese(text: str) -> str:
     text = re.sub(QUOTES, lambda found: f"“{found[1]}”" if found[1] else found[0], "\n".join(lines))
     text = re.sub(BRACKETS, _brackets, text)
     text = re.sub(UNITS, lambda unit: unit[0].replace(" ", "·"), text)
-    return re.sub(HALF_WIDTH, lambda mark: mark[0].strip().translate(FULL_WIDTH), text)
+    return re.sub(HALF_WIDTH, lambda found: found[1].translate(FULL_WIDTH) if found[1] else found[0], text)
 
 
 def _brackets(found: re.Match[str]) -> str:

@@ -234,7 +234,7 @@ KINDS |= {
 }
 """What is unknown where one of several names is."""
 
-FLAT = {"fill_in", "flow", "apparent_mass_ellipse", "mass_matrix", "matrix", "side_view", "sole"}
+FLAT = {"fill_in", "flow", "apparent_mass_ellipse", "mass_matrix", "matrix", "side_view", "sole", "top_view"}
 """The pictures that are flat."""
 
 

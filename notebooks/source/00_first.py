@@ -21,18 +21,36 @@ import numpy as np
 from twistwrench import plot
 
 # %% [markdown] lang="en"
-# `tw.robots()` lists what else there is; a path to a URDF file works as well. Go2 has 12 motors. Its trunk is not
-# bolted to anything, which gives it six more degrees of freedom: `nv` = 6 + 12 = 18. The placement of the trunk takes
-# seven numbers, a position and a quaternion: `nq` = 7 + 12 = 19.
+# `tw.robots()` lists what else there is; a path to a URDF file works as well. Go2 has 12 motors, and its trunk is not
+# bolted to anything. How many numbers does its posture `q` take, and how many its velocity `v`? Guess, then run the cell.
 # %% [markdown] lang="zh"
-# `tw.robots()` 列出目录里的其他机器人;给一个 URDF 文件的路径也行。Go2 有 12 个电机,躯干没有固定在任何东西上,
-# 所以多出六个自由度:`nv` = 6 + 12 = 18。而要说清躯干在哪里,需要七个数(位置加四元数):`nq` = 7 + 12 = 19。
+# `tw.robots()` 列出目录里的其他机器人;给一个 URDF 文件的路径也行。Go2 有 12 个电机,躯干没有固定在任何东西上。
+# 它的位形 `q` 要几个数,速度 `v` 要几个数?先猜一猜,再运行单元格。
 # %%
 q = model.standing()  # a posture with all four feet on the floor
 assert (model.nq, model.nv) == (19, 18)
 assert q.shape == (19,)
+print("numbers of q and of v:", model.nq, model.nv)
 print("base position", q[:3].round(3), " quaternion x, y, z, w", q[3:7])
 print("front left leg: hip, thigh, calf", q[7:10], "rad")
+# %% [markdown] lang="en"
+# <details>
+# <summary>Why are they not the same?</summary>
+#
+# The trunk can move in six ways, three to turn and three to go: 6 + 12 = 18. But *where* it is takes seven numbers, a position and
+# a quaternion, whose four numbers always have the length 1: 7 + 12 = 19. Which of them a library writes first is
+# another matter. On the site you can paste the state of one library, and read it as another one writes it:
+# [Translate my numbers](../hands/translate.md).
+#
+# </details>
+# %% [markdown] lang="zh"
+# <details>
+# <summary>为什么不一样多?</summary>
+#
+# 躯干有六种动法,三种转动、三种移动:6 + 12 = 18。而它*在哪里*要七个数,位置加四元数,四元数的四个数长度总是 1:7 + 12 = 19。
+# 各个库先写哪个数,又各不相同。在网站上可以粘贴一个库的状态,看另一个库怎样写:[换算我的数](../hands/translate.md)。
+#
+# </details>
 # %% [markdown] lang="en"
 # ## What holds it up?
 #

@@ -14,10 +14,6 @@ import twistwrench as tw
 
 model = tw.load("go2")
 # %% setup="yes"
-import ast
-import inspect
-import timeit
-
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -186,13 +182,13 @@ assert flipped[2] < -10
 # %% [markdown] lang="zh"
 # 第四个最难发现。在世界原点附近,两种 twist 几乎相等,实验室里的测试能通过。
 # %%
-tw.ask("49.1-walked", ...)
+at_ten_metres = tw.ask("49.1-walked", ...)
+at_ten_metres
 # %% [markdown] lang="en"
-# The error grows with the distance that the robot walks. The picture shows the same foot, after the robot has
-# walked a distance $d$ without turning:
+# The error is $\omega d$: it grows with the distance $d$ that the robot has walked, here without turning. All four
+# mistakes in one picture:
 # %% [markdown] lang="zh"
-# 机器人走得越远,错得越多。
-# 还是那只脚,机器人向前走了距离 $d$,而且朝向都没变:
+# 误差是 $\omega d$：机器人向前走的距离 $d$ 越大(这里朝向没变),错得越多。四个错误画在一张图里:
 # %%
 distance = np.geomspace(0.01, 100, 41)
 X = tw.motion_transform(np.eye(3), distance[:, None] * [1, 0, 0])  # one matrix for each distance
@@ -214,8 +210,13 @@ for ax, (title, wrong) in zip(axes[[0, 2]], {"1. coupling forgotten": forgotten,
     ax.legend()
 axes[1].bar(["right", "wrong"], [pushed[2], flipped[2]], color=[good, bad])
 axes[1].set(title="2. sign of p × f", ylabel="yaw acceleration [rad/s²]")
-axes[3].loglog(distance, error / np.linalg.norm(truth, axis=-1), color=bad)
-axes[3].set(title="4. body for spatial", xlabel="distance walked [m]", ylabel="relative error of the foot's velocity")
+axes[3].loglog(distance, error, color=bad)
+axes[3].plot(0.01, error[0], "o", color=good, label="in the lab")
+axes[3].plot(10, 6, "o", color=bad, label="10 m away")
+if at_ten_metres.guess:
+    axes[3].plot(10, abs(at_ten_metres.guess), "D", color=plot.COLOURS["purple"], label="your guess")
+axes[3].set(title="4. body for spatial", xlabel="distance walked [m]", ylabel="error of the foot's velocity [m/s]")
+axes[3].legend()
 axes[3].grid(alpha=0.3)
 for ax in axes[:3]:
     ax.axhline(0, color="k", linewidth=0.8)
@@ -279,6 +280,8 @@ assert min(missing.values()) > 0.03  # none is small enough to be forgotten
 
 ax = plot.axes_2d(size=(6, 2.8))
 ax.barh(list(missing), [100 * share for share in missing.values()], color=plot.COLOURS["sky"])
+ax.axvline(3, color=plot.COLOURS["vermilion"], linestyle="--", label="3 %")
+ax.legend()
 ax.invert_yaxis()
 ax.set(xlabel="error where the coupling term is left out [%]", title="one calf, one state")
 plt.show()
@@ -292,58 +295,92 @@ plt.show()
 # %%
 slow, fast = newton_euler_3d.inverse_dynamics(model, q, v, a), tw.rnea(model, q, v, a)
 assert np.abs(slow - fast).max() < 1e-12 * np.abs(slow).max()
-
-
-def cross_products(*modules):
-    """Count the places in the source where a cross product stands."""
-    calls = [n for m in modules for n in ast.walk(ast.parse(inspect.getsource(m))) if isinstance(n, ast.Call)]
-    return sum("cross" in ast.unparse(call.func) for call in calls)
-
-
-spread = cross_products(newton_euler_3d.bodies, newton_euler_3d.forces)
-gathered = cross_products(inspect.getmodule(tw.rnea))
-print(f"cross products in the source: {spread} with 3-D vectors, {gathered} with 6-D vectors")
-assert spread > 5 * gathered
 # %% [markdown] lang="en"
-# ## Is it faster?
+# ## Where six numbers come from
 #
-# The word "recursive" does not prove it. Measure it on your own machine:
+# Two lines of thought meet in this chapter. Above the axis are those who had six numbers for a line, a motion, a force;
+# below it those who computed the motion of linked bodies in a time that grows with $N$, at first with 3-D vectors.
+# Featherstone put them together.
 # %% [markdown] lang="zh"
-# ## 会更快吗?
+# ## 六个数从哪里来
 #
-# "递推"两个字并不能证明更快。请在你自己的机器上测一下:
+# 两条思路在本章汇合。轴的上方是用六个数描述直线、运动和力的人;下方是让多体运动的计算时间只随 $N$ 增长的人,他们起初用的是三维向量。
+# Featherstone 把两者合到了一起。
 # %%
-ways = {
-    "3-D": lambda: newton_euler_3d.inverse_dynamics(model, q, v, a),
-    "6-D": lambda: tw.rnea(model, q, v, a),
-}
-for name, way in ways.items():
-    print(f"{name}: {1e3 * min(timeit.repeat(way, number=5, repeat=5)) / 5:.2f} ms for the inverse dynamics of Go2")
-# %% [markdown] lang="en"
-# In Python, the two take similar times, because most of the time is spent in small calls of NumPy. What makes a
-# recursion fast is that its work grows with the number of links $N$ and not with $N^2$. The chapter's table says that
-# RNEA, ABA and CRBA are all linear. Can that be?
-# %% [markdown] lang="zh"
-# 在 Python 里二者相差不大,因为时间主要花在一次次小的 NumPy 调用上。递推之所以快,在于工作量随连杆数 $N$ 增长,而不是随 $N^2$ 增长。
-# 本章的表格说 RNEA、ABA、CRBA 都是线性时间。可能吗?
-# %%
-tw.ask("49.1-full", ...)
-# %%
-for n in (5, 10, 20, 40):
-    links = tw.chain(n)
-    assert np.count_nonzero(tw.crba(links, np.full(n, 0.3))) == n**2
-
-
+ax = plot.axes_2d(size=(12, 4.5))
+years = [
+    (1763, 1, "Mozzi: a turn about a line\nand a slide along it"),
+    (1830, 2.2, "Chasles: the same\nfor two places of a body"),
+    (1865, 1, "Plücker: a line\nin six numbers"),
+    (1876, 2.2, "Ball: screws, for motions\nand for forces"),
+    (1924, 1, "von Mises: vectors\nof six components"),
+    (1965, 2.2, "Dimentberg: screws\nfor mechanisms"),
+    (1980, -1, "Luh, Walker, Paul: RNEA,\nwith 3-D vectors"),
+    (1982, -2.2, "Walker, Orin: CRBA"),
+    (1983, -3.2, "Featherstone: ABA"),
+    (1984, 1, "Featherstone:\nspatial vectors"),
+    (2008, 2.2, "Featherstone's book;\nOrin, Goswami: 49.10"),
+    (2019, -1, "Pinocchio"),
+]
+ax.axhline(0, color=plot.COLOURS["black"], linewidth=1.5)
+for year, height, text in years:
+    colour = plot.COLOURS["blue" if height > 0 else "orange"]
+    ax.plot([year, year], [0, height], color=colour, linewidth=1)
+    ax.plot(year, 0, "o", color=colour)
+    box = {"facecolor": "w", "edgecolor": "none", "pad": 2}
+    ax.text(year, height, f"{year}\n{text}", ha="center", va="bottom" if height > 0 else "top", fontsize=9, bbox=box)
+ax.set(xlim=(1735, 2045), ylim=(-4.2, 3.4))
+ax.axis("off")
+plt.show()
 # %% [markdown] lang="en"
 # ## A base that floats
 #
-# An arm is bolted down; Go2 is not. Its base adds six degrees of freedom without motors. What does that do to the two
-# equations of motion, $M\ddot q + h = \tau$ of the arm and $M\ddot q + h = S^T\tau + J_c^T\lambda$ of a robot on its feet?
+# An arm is bolted down; Go2 is not. Its base adds six degrees of freedom without motors. The left-hand sides of the two
+# equations of motion are alike, the right-hand sides are not:
 # %% [markdown] lang="zh"
 # ## 浮动的基座
 #
-# 机械臂是固定的,Go2 不是。它的基座带来六个没有电机的自由度。这对两个运动方程意味着什么:机械臂的
-# $M\ddot q + h = \tau$,与站立机器人的 $M\ddot q + h = S^T\tau + J_c^T\lambda$？
+# 机械臂是固定的,Go2 不是。它的基座带来六个没有电机的自由度。两个运动方程的左边一样,右边不同:
+# %%
+figure, (left, right_hand) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
+arm, posture = tw.load("planar_arm"), np.array([1.3, -0.9, -0.9])
+stand = model.standing()
+held = tw.static_equilibrium(model, stand)
+for ax, robot, x in [(left, arm, posture), (right_hand, model, stand)]:
+    plot.side_view(robot, x, com=False, ax=ax)
+    first = 2 if robot.base == "floating" else 1
+    joints = np.array([T.translation for T in tw.forward_kinematics(robot, x).placement[first:]])
+    ax.plot(
+        joints[:, 0], joints[:, 2], "o", markersize=11, markerfacecolor="w", color=plot.COLOURS["orange"], label="motor"
+    )
+left.fill([-0.3, 0.3, 0.3, -0.3], [-0.12, -0.12, -0.04, -0.04], facecolor="0.85", edgecolor="0.4", hatch="////")
+for foot, force in zip(model.feet, held.forces):
+    x, _, z = tw.frame_placement(model, stand, foot).translation
+    right_hand.annotate(
+        "",
+        (x, z),
+        (x, z - force[2] / 350),
+        arrowprops={"arrowstyle": "-|>", "color": plot.COLOURS["green"], "lw": 2},
+    )
+right_hand.plot([], [], color=plot.COLOURS["green"], label="force of the ground λ")
+trunk = tw.forward_kinematics(model, stand).placement[1].translation
+right_hand.annotate(
+    "no motor moves the base", trunk[[0, 2]], trunk[[0, 2]] + [0, 0.07], ha="center", arrowprops={"arrowstyle": "-"}
+)
+left.set_title(r"$M\,\ddot q + h = \tau$", fontsize=15)
+right_hand.set_title(r"$M\,\ddot q + h = S^T\tau + J_c^T\lambda$", fontsize=15)
+for ax in (left, right_hand):
+    ax.margins(0.15)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+right_hand.set_ylim(-0.16, 0.4)
+plt.show()
+
+
+# %% [markdown] lang="en"
+# $S^T$ writes the torques of the motors into the rows that have a motor. $J_c^T$ brings the forces $\lambda$ at the feet into
+# the equation (49.4), the six rows of the base included. So who moves the base?
+# %% [markdown] lang="zh"
+# $S^T$ 把电机力矩写进有电机的那些行。$J_c^T$ 把足端的力 $\lambda$ 带进方程(49.4),也包括基座的六行。那么是谁在推动基座?
 # %% [markdown] lang="en"
 # **Exercise 49.1.1.** How many numbers are in `q`, and how many in `v`? And with Euler angles?
 # %% [markdown] lang="zh"
@@ -402,11 +439,63 @@ for order, quaternion in {"x, y, z, w": [s, 0, 0, s], "w, x, y, z": [s, s, 0, 0]
     print(f"{order}: the robot's back points to {up.round(3) + 0.0}")
     assert np.allclose(up, [0, -1, 0]) == (order == "x, y, z, w")
 # %% [markdown] lang="en"
-# ## Pinocchio agrees
+# ## For engineers
+#
+# Nothing later needs this; come back to it when you write a program.
+#
+# ### Is it faster?
+#
+# The word "recursive" does not prove it. Measure it on your own machine, and count the cross products in the source:
+# %% [markdown] lang="zh"
+# ## 给工程师
+#
+# 后面用不到这一部分,等到自己写程序时再看也不迟。
+#
+# ### 会更快吗?
+#
+# "递推"两个字并不能证明更快。请在你自己的机器上测一下,再数一数源代码里的叉乘:
+# %%
+import ast
+import inspect
+import timeit
+
+ways = {
+    "3-D": lambda: newton_euler_3d.inverse_dynamics(model, q, v, a),
+    "6-D": lambda: tw.rnea(model, q, v, a),
+}
+for name, way in ways.items():
+    print(f"{name}: {1e3 * min(timeit.repeat(way, number=5, repeat=5)) / 5:.2f} ms for the inverse dynamics of Go2")
+
+
+def cross_products(*modules):
+    """Count the places in the source where a cross product stands."""
+    calls = [n for m in modules for n in ast.walk(ast.parse(inspect.getsource(m))) if isinstance(n, ast.Call)]
+    return sum("cross" in ast.unparse(call.func) for call in calls)
+
+
+spread = cross_products(newton_euler_3d.bodies, newton_euler_3d.forces)
+gathered = cross_products(inspect.getmodule(tw.rnea))
+print(f"cross products in the source: {spread} with 3-D vectors, {gathered} with 6-D vectors")
+assert spread > 5 * gathered
+# %% [markdown] lang="en"
+# In Python, the two take similar times, because most of the time is spent in small calls of NumPy. What makes a
+# recursion fast is that its work grows with the number of links $N$ and not with $N^2$. The chapter's table says that
+# RNEA, ABA and CRBA are all linear. Can that be?
+# %% [markdown] lang="zh"
+# 在 Python 里二者相差不大,因为时间主要花在一次次小的 NumPy 调用上。递推之所以快,在于工作量随连杆数 $N$ 增长,而不是随 $N^2$ 增长。
+# 本章的表格说 RNEA、ABA、CRBA 都是线性时间。可能吗?
+# %%
+tw.ask("49.1-full", ...)
+# %%
+for n in (5, 10, 20, 40):
+    links = tw.chain(n)
+    assert np.count_nonzero(tw.crba(links, np.full(n, 0.3))) == n**2
+# %% [markdown] lang="en"
+# ### Pinocchio agrees
 #
 # The velocity of the right front foot, in the random motion from above:
 # %% [markdown] lang="zh"
-# ## 与 Pinocchio 对照
+# ### 与 Pinocchio 对照
 #
 # 在上面那个随机运动中,右前脚的速度:
 # %%

@@ -24,70 +24,154 @@ from twistwrench import plot
 q[:2] = 1.0, 0.5
 v = np.zeros(model.nv)
 v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
+
+
 # %% [markdown] lang="en"
 # ## One motion, two twists
 #
-# Let $T(t)$ be the placement of a body in the world. Its rate $\dot T$ is a 4 × 4 matrix; multiplied by $T^{-1}$ from
-# one side or the other it becomes a twist:
-#
-# $$[\boldsymbol V_{body}] = T^{-1}\dot T, \qquad [\boldsymbol V_{spatial}] = \dot T\, T^{-1}.$$
-#
-# Here Go2 stands at (1, 0.5) m, turns left at 0.6 rad/s and walks at 0.8 m/s, its joints locked.
-#
-# We can do exactly what the definitions say. With complex numbers a derivative needs no small difference: $f(x + ih)$ has
-# $h f'(x)$ as its imaginary part, and $h$ may be as small as $10^{-100}$.
+# Go2 stands at (1, 0.5) m, turns left at 0.6 rad/s and walks at 0.8 m/s, its joints locked. Its base carries a frame.
+# Where that frame is at the time $t$ is a 4 × 4 matrix $T(t)$: three columns for the directions of its axes, and one for
+# its origin. Here it is twice, now and one second later.
 # %% [markdown] lang="zh"
 # ## 一个运动,两种 twist
 #
-# 设 $T(t)$ 是刚体在世界中的位姿。它的导数 $\dot T$ 是 4 × 4 矩阵,从一边或另一边乘上 $T^{-1}$,就得到 twist：
-#
-# $$[\boldsymbol V_{body}] = T^{-1}\dot T, \qquad [\boldsymbol V_{spatial}] = \dot T\, T^{-1}.$$
-#
-# 这里 Go2 在 (1, 0.5) m 处,以 0.6 rad/s 左转,以 0.8 m/s 前行,关节锁死。
-#
-# 我们就照这个定义来算。用复数求导不需要做差分:$f(x + ih)$ 的虚部是 $h f'(x)$,而 $h$ 可以小到 $10^{-100}$。
+# Go2 在 (1, 0.5) m 处,以 0.6 rad/s 左转,以 0.8 m/s 前行,关节锁死。基座上固定着一个坐标系,它在时刻 $t$ 的位姿是
+# 4 × 4 矩阵 $T(t)$：三列是各轴的方向,一列是原点的位置。下面把它画两次:现在,和一秒之后。
 # %%
-tw.ask("49.2-origin", ...)
+def placed(seconds):
+    """Return T: where the frame of the base is after so many seconds of this walk."""
+    return tw.frame_placement(model, model.integrate(q, seconds * v), "base").matrix()
+
+
+T, T_later = placed(0), placed(1.0)
+print(T.round(3), T_later.round(3), sep="\n\n")
 # %%
-h = 1e-100
-T = tw.frame_placement(model, q, "FR_foot").matrix()
-T_dot = tw.frame_placement(model, model.integrate(q, 1j * h * v), "FR_foot").matrix().imag / h
-
-body = tw.vee(np.linalg.inv(T) @ T_dot)
-spatial = tw.vee(T_dot @ np.linalg.inv(T))
-print("body twist    ", body.round(3) + 0.0)
-print("spatial twist ", spatial.round(3) + 0.0)
-
-assert np.allclose(tw.frame_jacobian(model, q, "FR_foot", "local") @ v, body, atol=1e-14)
-assert np.allclose(tw.frame_jacobian(model, q, "FR_foot", "world") @ v, spatial, atol=1e-14)
+ax = plot.axes_2d(size=(7, 4.5))
+for seconds, colour in [(0, "grey"), (1.0, "sky")]:
+    plot.top_view(model, model.integrate(q, seconds * v), colour=plot.COLOURS[colour], ax=ax)
+for frame, name in [(np.eye(4), "the world"), (T, "T(0)"), (T_later, "T(1 s)")]:
+    for k, colour in enumerate(plot.XYZ[:2]):
+        ax.quiver(
+            *frame[:2, 3],
+            *0.3 * frame[:2, k],
+            color=colour,
+            angles="xy",
+            scale_units="xy",
+            scale=1,
+            width=0.007,
+            zorder=3,
+        )
+    ax.text(*(frame[:2, 3] - 0.13 * frame[:2, 1]), name, ha="center", va="top", fontsize=10)
+corners = np.array([[0, 0, 0, 1], [0.3, 0, 0, 1], [0, 0.3, 0, 1]]).T  # three points of the body
+ways = (T_later - T) @ corners
+ax.quiver(
+    *(T @ corners)[:2],
+    *ways[:2],
+    color=plot.COLOURS["purple"],
+    angles="xy",
+    scale_units="xy",
+    scale=1,
+    width=0.004,
+    zorder=4,
+    label="where three points of the body go",
+)
+ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", xlim=(-0.3, 2.3), ylim=(-0.3, 1.3), title="from above")
+ax.legend(loc="upper left")
+plt.show()
 # %% [markdown] lang="en"
-# The **body twist** is what a passenger on the foot measures, in the axes of the foot: its linear part is the velocity of
-# the foot. The **spatial twist** is what is seen from the world: its linear part is the velocity of the point of the
-# foot's body that passes through the *world's origin* now. Usually there is no material at that point; imagine the body
-# extended to it.
+# The purple arrows are the way of three points $\boldsymbol p$ of the body: $(T(t + \Delta t) - T(t))\,\boldsymbol p$.
+# Divide by $\Delta t$, and this matrix has the mean velocity of each point. But it is written in the axes of the world.
+# Seen from the body itself it is
+#
+# $$T(t)^{-1}\,\frac{T(t + \Delta t) - T(t)}{\Delta t}.$$
+#
+# Take smaller and smaller $\Delta t$, and watch the diagonal:
+# %% [markdown] lang="zh"
+# 紫色箭头是刚体上三个点 $\boldsymbol p$ 走过的路:$(T(t + \Delta t) - T(t))\,\boldsymbol p$。再除以 $\Delta t$,
+# 这个矩阵给出的就是各点的平均速度,只不过用的是世界坐标轴。从刚体自己看,则是
+#
+# $$T(t)^{-1}\,\frac{T(t + \Delta t) - T(t)}{\Delta t}.$$
+#
+# 让 $\Delta t$ 越来越小,注意对角线:
+# %%
+quotients = {dt: np.linalg.inv(T) @ (placed(dt) - T) / dt for dt in (1.0, 0.1, 0.01)}
+# %%
+figure, axes = plt.subplots(1, 3, figsize=(11, 3.6), layout="constrained")
+for ax, (dt, quotient) in zip(axes, quotients.items()):
+    plot.matrix(quotient, f"Δt = {dt} s", numbers=".3f", limit=1.0, ax=ax)
+plt.show()
+assert np.abs(np.diag(quotients[1.0])).max() > 0.17
+assert np.abs(np.diag(quotients[0.01])).max() < 0.002
+# %% [markdown] lang="en"
+# The diagonal vanishes. In the limit six numbers are left, $\boldsymbol\omega$ in the block of the rotation and
+# $\boldsymbol v$ in the last column. A bracket around a twist means this matrix:
+#
+# $$[\boldsymbol V_{body}] = T^{-1}\,\dot T = \begin{pmatrix} [\boldsymbol\omega]_\times & \boldsymbol v \\ 0 & 0 \end{pmatrix},
+# \qquad [\boldsymbol\omega]_\times = \begin{pmatrix} 0 & -\omega_z & \omega_y \\ \omega_z & 0 & -\omega_x \\
+# -\omega_y & \omega_x & 0 \end{pmatrix}.$$
+#
+# This is the **body twist**. A passenger measures it in the axes of the body; its $\boldsymbol v$ is the velocity of the
+# frame's origin. It is what we gave to the base: 0.6 rad/s about z, 0.8 m/s along x.
+#
+# Multiplied from the other side, the same $\dot T$ becomes the **spatial twist**, which is seen from the world:
+#
+# $$[\boldsymbol V_{spatial}] = \dot T\, T^{-1}.$$
+# %% [markdown] lang="zh"
+# 对角线消失了。极限里剩下六个数:$\boldsymbol\omega$ 在旋转那一块,$\boldsymbol v$ 在最后一列。给 twist 加方括号,指的就是这个矩阵:
+#
+# $$[\boldsymbol V_{body}] = T^{-1}\,\dot T = \begin{pmatrix} [\boldsymbol\omega]_\times & \boldsymbol v \\ 0 & 0 \end{pmatrix},
+# \qquad [\boldsymbol\omega]_\times = \begin{pmatrix} 0 & -\omega_z & \omega_y \\ \omega_z & 0 & -\omega_x \\
+# -\omega_y & \omega_x & 0 \end{pmatrix}.$$
+#
+# 这就是 **body twist**:坐在刚体上的乘客按刚体的坐标轴量到的,其中 $\boldsymbol v$ 是坐标系原点的速度。
+# 它正是我们给基座的运动:绕 z 轴 0.6 rad/s,沿 x 轴 0.8 m/s。
+#
+# 同一个 $\dot T$ 从另一边乘,就成了 **spatial twist**,这是站在世界里看到的:
+#
+# $$[\boldsymbol V_{spatial}] = \dot T\, T^{-1}.$$
+# %%
+size_of_v = tw.ask("49.2-origin", ...)
+size_of_v
+
+
+# %%
+def six(quotient):
+    """Read ω and v off such a matrix."""
+    return np.array([quotient[2, 1], quotient[0, 2], quotient[1, 0], *quotient[:3, 3]])
+
+
+T_dot = (placed(1e-5) - placed(-1e-5)) / 2e-5  # a difference to both sides: nine digits
+print("body twist    ", six(np.linalg.inv(T) @ T_dot).round(3) + 0.0)
+print("spatial twist ", six(T_dot @ np.linalg.inv(T)).round(3) + 0.0)
+assert np.allclose(six(np.linalg.inv(T) @ T_dot), v[:6], atol=1e-9)
+# %% [markdown] lang="en"
+# The linear part of the spatial twist is the velocity of the point of the body that passes through the *world's origin*
+# now. Usually there is no material at that point; imagine the body extended to it.
 #
 # How are the two related? From the first definition $\dot T = T\,[\boldsymbol V_{body}]$. Put this into the second:
 #
 # $$[\boldsymbol V_{spatial}] = \dot T\,T^{-1} = T\,[\boldsymbol V_{body}]\,T^{-1}.$$
 #
-# This holds for any two frames whose placement relative to each other is $T$. Written for six numbers instead of a 4 × 4
-# matrix it is one multiplication, $\boldsymbol V_{spatial} = X\,\boldsymbol V_{body}$; section 49.3 multiplies it out.
+# No derivative is left in it. `tw.hat` writes a twist as its matrix, `tw.vee` reads it back. This holds for any two frames
+# whose placement relative to each other is $T$. Written for six numbers instead of a 4 × 4 matrix it is one multiplication,
+# $\boldsymbol V_{spatial} = X\,\boldsymbol V_{body}$; section 49.3 multiplies it out.
 # %% [markdown] lang="zh"
-# **Body twist** 是坐在脚上的乘客按脚的坐标轴量到的:线速度部分就是脚的速度。**Spatial twist** 是站在世界里看到的:
-# 线速度部分是脚这个刚体上此刻经过*世界原点*的那个点的速度。那里通常没有材料,请想象刚体一直延伸到那里。
+# Spatial twist 的线速度部分,是刚体上此刻经过*世界原点*的那个点的速度。那里通常没有材料,请想象刚体一直延伸到那里。
 #
 # 两者有什么关系?由第一个定义得 $\dot T = T\,[\boldsymbol V_{body}]$,代入第二个:
 #
 # $$[\boldsymbol V_{spatial}] = \dot T\,T^{-1} = T\,[\boldsymbol V_{body}]\,T^{-1}.$$
 #
-# 任何两个坐标系,只要相对位姿是 $T$,都有这个关系。不写成 4 × 4 矩阵而写成六个数,就是一次乘法
-# $\boldsymbol V_{spatial} = X\,\boldsymbol V_{body}$;49.3 把它展开。
+# 式中不再有导数。`tw.hat` 把 twist 写成它的矩阵,`tw.vee` 再读回来。任何两个坐标系,只要相对位姿是 $T$,都有这个关系。
+# 不写成 4 × 4 矩阵而写成六个数,就是一次乘法 $\boldsymbol V_{spatial} = X\,\boldsymbol V_{body}$;49.3 把它展开。
 # %%
+body = v[:6]
+spatial = tw.vee(T @ tw.hat(body) @ np.linalg.inv(T))
+assert np.allclose(spatial, six(T_dot @ np.linalg.inv(T)), atol=1e-9)
 R, p = T[:3, :3], T[:3, 3]
-assert np.allclose(R @ body[3:], T_dot[:3, 3])  # the velocity of the foot
-assert np.allclose(spatial[3:], T_dot[:3, 3] + np.cross(spatial[:3], -p))  # of the point at the world's origin
-assert np.allclose(T @ tw.hat(body) @ np.linalg.inv(T), tw.hat(spatial))
-assert np.allclose(tw.motion_transform(R, p) @ body, spatial)
+assert np.allclose(spatial[3:], R @ body[3:] + np.cross(spatial[:3], -p))  # of the point at the world's origin
+assert np.allclose(tw.frame_jacobian(model, q, "base", "local") @ v, body, atol=1e-14)
+assert np.allclose(tw.frame_jacobian(model, q, "base", "world") @ v, spatial, atol=1e-14)
 
 
 # %% [markdown] lang="en"
@@ -106,54 +190,70 @@ tw.exercises.check("49.2.1", foot_twist)
 #
 # Given the six numbers, every point of space has a velocity, $\boldsymbol v + \boldsymbol\omega \times \boldsymbol p$.
 # All joints are locked here, so the whole robot has one spatial twist. The body twist of any part of it reads the field
-# where that part is; the spatial twist reads it at the origin.
+# where that part is; the spatial twist reads it at the origin. Somewhere in this field nothing moves.
 # %% [markdown] lang="zh"
 # ## Twist 是一个速度场
 #
 # 给定这六个数,空间中每一点都有速度 $\boldsymbol v + \boldsymbol\omega \times \boldsymbol p$。这里关节全部锁死,
 # 所以整个机器人只有一个 spatial twist。各部分的 body twist 是在自己所在处读这个场,spatial twist 是在原点读。
+# 这个场里有一处不动。
 # %%
-tw.ask("49.2-centre", ...)
+centre_of_curve = tw.ask("49.2-centre", ...)
+centre_of_curve
 # %%
-spatial_of = {name: tw.frame_jacobian(model, q, name, "world") @ v for name in ("base", "FR_foot", "RL_calf")}
-assert all(np.allclose(V, spatial, atol=1e-15) for V in spatial_of.values())
-
-grid = np.stack(np.meshgrid(np.arange(-1, 3.1, 0.5), np.arange(-1, 3.1, 0.5)), axis=-1).reshape(-1, 2)
+centre = p + R @ [0, 0.8 / 0.6, 0]  # v / ω to the left of the base
+foot = tw.frame_placement(model, q, "FR_foot").translation
+assert np.allclose(plot.point_velocity(spatial, centre), 0, atol=1e-15)
+for name in ("base", "FR_foot", "RL_calf"):
+    assert np.allclose(tw.frame_jacobian(model, q, name, "world") @ v, spatial, atol=1e-15)
+# %%
+ax = plot.axes_2d(size=(7, 7.6))
+grid = np.stack(np.meshgrid(np.arange(-0.6, 2.3, 0.3), np.arange(-0.6, 2.3, 0.3)), axis=-1).reshape(-1, 2)
 field = plot.point_velocity(spatial, np.pad(grid, [(0, 0), (0, 1)]))  # of points on the floor
 
-ax = plot.axes_2d(size=(6.5, 6))
-for stick in plot.sticks(model, q):
-    ax.plot(*stick[:, :2].T, color=plot.COLOURS["grey"], linewidth=3)
-arrow = {"angles": "xy", "scale_units": "xy", "scale": 4}  # 1 m/s is 0.25 m long
-ax.quiver(*grid.T, *field[:, :2].T, color=plot.COLOURS["sky"], **arrow)
-ax.quiver(0, 0, *spatial[3:5], color=plot.COLOURS["vermilion"], label="v of the spatial twist", **arrow)
-ax.quiver(*p[:2], *(R @ body[3:])[:2], color=plot.COLOURS["purple"], label="v of the foot's body twist", **arrow)
-ax.plot(*tw.screw(spatial).point[:2], "o", color=plot.COLOURS["blue"], label="axis of the motion, end on")
-ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", title="from above")
-ax.legend(loc="upper left", framealpha=1)
+plot.top_view(model, q, ax=ax)
+arrow = {"angles": "xy", "scale_units": "xy", "scale": 4, "zorder": 3}  # 1 m/s is 0.25 m long
+ax.quiver(*grid.T, *field[:, :2].T, color=plot.COLOURS["sky"], width=0.004, **arrow)
+shown = {"vermilion": (np.zeros(3), "at the origin: v of the spatial twist")}
+shown |= {"black": (p, "at the base: v of its body twist"), "purple": (foot, "at the foot: v of its body twist")}
+for colour, (point, label) in shown.items():
+    ax.quiver(
+        *point[:2],
+        *plot.point_velocity(spatial, point)[:2],
+        color=plot.COLOURS[colour],
+        label=label,
+        width=0.008,
+        **arrow,
+    )
+ax.plot(*centre[:2], "o", color=plot.COLOURS["blue"], markersize=9, label="here nothing moves")
+if centre_of_curve.guess is not None:
+    ax.plot(p[0], p[1] + centre_of_curve.guess, "D", color=plot.COLOURS["orange"], label="your guess of it")
+if size_of_v.guess is not None:
+    radius = abs(size_of_v.guess) / 4
+    ax.add_patch(plt.Circle((0, 0), radius, fill=False, linestyle="--", label="your guess of the length at the origin"))
+ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", title="from above", xlim=(-0.6, 2.3), ylim=(-0.6, 2.2))
+ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.09), ncols=2)
 plt.show()
+
+
 # %% [markdown] lang="en"
 # The field turns about a vertical line, 0.8 / 0.6 = 1.33 m to the left of the base: the centre of the curve that the
-# robot walks. On that line nothing moves.
+# robot walks. What if the axis moves away, or leans? On the site you drag it, and see which of the six numbers stay:
+# [A twist is a field](../hands/field.md).
 # %% [markdown] lang="zh"
-# 这个场绕着一条竖直线转,它在基座左侧 0.8 / 0.6 = 1.33 m 处:机器人所走弧线的圆心。线上的点不动。
-# %%
-centre = tw.screw(spatial).point
-assert np.allclose(centre, [1.0, 0.5 + 0.8 / 0.6, 0])
-assert np.allclose(plot.point_velocity(spatial, np.array([centre, centre + np.array([0, 0, 1])])), 0, atol=1e-15)
-
-
+# 这个场绕着一条竖直线转,它在基座左侧 0.8 / 0.6 = 1.33 m 处:机器人所走弧线的圆心。
+# 轴移远一些、歪一些会怎样?在网站上可以拖动它,看六个数里哪些不变:[twist 是一个场](../hands/field.md)。
 # %% [markdown] lang="en"
 # ## From a twist to a motion: hat and exp
 #
-# `hat` writes a twist as the 4 × 4 matrix of $\mathfrak{se}(3)$, `vee` reads it back. If the body twist stays constant,
-# then $\dot T = T\,[\boldsymbol V]$ has the solution $T(t) = T(0)\,e^{[\boldsymbol V] t}$.
+# The matrices $[\boldsymbol V]$ are those of $\mathfrak{se}(3)$; `hat` makes them. If the body twist stays constant, then
+# $\dot T = T\,[\boldsymbol V]$ has the solution $T(t) = T(0)\,e^{[\boldsymbol V] t}$.
 #
 # Take $\boldsymbol V = (0, 0, \omega, v, 0, 0)$, the walk from above.
 # %% [markdown] lang="zh"
 # ## 从 twist 到运动:hat 与 exp
 #
-# `hat` 把 twist 写成 $\mathfrak{se}(3)$ 中的 4 × 4 矩阵,`vee` 再读回来。若 body twist 保持不变,
+# 矩阵 $[\boldsymbol V]$ 属于 $\mathfrak{se}(3)$,由 `hat` 写出。若 body twist 保持不变,
 # 那么 $\dot T = T\,[\boldsymbol V]$ 的解是 $T(t) = T(0)\,e^{[\boldsymbol V] t}$。
 #
 # 取 $\boldsymbol V = (0, 0, \omega, v, 0, 0)$,也就是上面的行走。
@@ -195,15 +295,22 @@ tw.ask("49.2-straight", ...)
 step = np.eye(4) + tw.hat(V) * times[1]
 straight = np.array([np.linalg.matrix_power(step, k) for k in range(13)])  # the same in twelve straight steps
 
-ax = plot.axes_2d(size=(6.5, 5))
+ax = plot.axes_2d(size=(6, 6.5))
+box = np.array([[0.3, 0.18], [0.3, -0.18], [-0.3, -0.18], [-0.3, 0.18]])
+box = np.pad(np.concatenate([box, [[0.5, 0]]]), [(0, 0), (0, 2)], constant_values=(0, 1)) * [1, 1, 0, 1]
 ax.plot(*tw.exp6(np.linspace(0, times[-1], 200)[:, None] * V).translation[:, :2].T, color=plot.COLOURS["grey"])
-for k, colour in enumerate(plot.XYZ[:2]):  # the body's x and y axes
-    ax.quiver(x, y, walk.rotation[:, 0, k], walk.rotation[:, 1, k], color=colour, width=0.006, scale=18)
-for t, where in zip(times[:-1], 1.25 * (walk.translation - [0, speed / w, 0]) + [0, speed / w, 0]):
-    ax.text(*where[:2], f"{t:.1f} s", fontsize=8, ha="center", va="center")
-ax.plot(*straight[:, :2, 3].T, ".--", color=plot.COLOURS["purple"], label="1 + [V] t in place of exp, in twelve steps")
-ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", title="from above", ylim=(-5, 5))
-ax.legend(loc="lower right")
+for placements, colour, name in [
+    (walk.matrix(), "sky", "exp([V] t)"),
+    (straight, "purple", "1 + [V] t in place of exp, in twelve steps"),
+]:
+    for k, placement in enumerate(placements):
+        outline = (placement @ box[[0, 4, 1, 2, 3]].T)[:2]
+        ax.fill(*outline, color=plot.COLOURS[colour], alpha=0.5, label=None if k else name)
+ax.plot(*straight[:, :2, 3].T, "--", color=plot.COLOURS["purple"])
+for t, where in zip(times[:-1:2], 0.6 * (walk.translation[::2] - [0, speed / w, 0]) + [0, speed / w, 0]):
+    ax.text(*where[:2], f"{t:.1f} s", fontsize=9, ha="center", va="center")
+ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal", title="from above")
+ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.09))
 plt.show()
 
 stretched = np.linalg.det(straight[-1, :3, :3])
@@ -212,7 +319,8 @@ print(
 )
 assert stretched > 10
 # %% [markdown] lang="en"
-# That is why `model.integrate` uses exp, and why a quaternion that is advanced by $q + \dot q\,dt$ must be normalised.
+# That is why `model.integrate` uses exp, and why a quaternion that is advanced by $q + \dot q\,dt$ must be normalised. How
+# many steps would be enough? On the site you choose their number: [exp against 1 + [V] t](../hands/exponential.md).
 #
 # ## The screw
 #
@@ -223,7 +331,8 @@ assert stretched > 10
 # $\boldsymbol\omega\cdot\boldsymbol v / |\boldsymbol\omega|^2$, metres along per radian. The pitch is negative for a
 # left-handed screw, zero for a hinge, infinite for a slide.
 # %% [markdown] lang="zh"
-# 所以 `model.integrate` 用的是 exp,而按 $q + \dot q\,dt$ 推进的四元数必须重新归一化。
+# 所以 `model.integrate` 用的是 exp,而按 $q + \dot q\,dt$ 推进的四元数必须重新归一化。要分多少步才够?在网站上可以自己选步数:
+# [exp 与 1 + [V] t](../hands/exponential.md)。
 #
 # ## 螺旋
 #
@@ -260,9 +369,9 @@ plt.show()
 # %%
 tw.ask("49.2-together", ...)
 # %%
-q = model.standing()
+stand = model.standing()
 hip = model.v_slice[model.joint_id("FR_hip_joint")].start
-screws = tw.frame_jacobian(model, q, "FR_foot", "world")[:, hip : hip + 3].T  # one row for each joint
+screws = tw.frame_jacobian(model, stand, "FR_foot", "world")[:, hip : hip + 3].T  # one row for each joint
 rates = np.array([3.0, -2.0, 4.0])  # of hip, thigh and calf, rad/s
 together = rates @ screws
 for name, s in {"hip": screws[0], "thigh": screws[1], "calf": screws[2], "together": together}.items():
@@ -270,16 +379,16 @@ for name, s in {"hip": screws[0], "thigh": screws[1], "calf": screws[2], "togeth
 assert np.allclose(tw.screw(screws).pitch, 0, atol=1e-15)
 assert abs(tw.screw(together).pitch) > 0.01
 for i, s in enumerate(screws):  # each axis passes through its joint
-    joint = tw.forward_kinematics(model, q).placement[model.joint_id("FR_hip_joint") + i].translation
+    joint = tw.forward_kinematics(model, stand).placement[model.joint_id("FR_hip_joint") + i].translation
     assert np.allclose(plot.point_velocity(s, joint), 0, atol=1e-15)
 # %%
-ax = plot.robot(model, q, com=False)
-knee = tw.frame_placement(model, q, "FR_calf").translation
+ax = plot.robot(model, stand, com=False)
+knee = tw.frame_placement(model, stand, "FR_calf").translation
 for s, name, colour in zip(
     [*screws, together], ["hip", "thigh", "calf", "all three"], ["sky", "orange", "green", "blue"]
 ):
     plot.screw_axis(s, length=0.4, near=knee, colour=plot.COLOURS[colour], label=name, ax=ax)
-foot = tw.frame_placement(model, q, "FR_foot").translation
+foot = tw.frame_placement(model, stand, "FR_foot").translation
 plot.twist_field(together, foot, scale=0.15, colour=plot.COLOURS["vermilion"], label="velocity of the foot", ax=ax)
 ax.view_init(elev=25, azim=-25)
 ax.legend(loc="upper left", fontsize=8)
@@ -324,23 +433,24 @@ ax.set(xlabel="|ω| [rad/s], while v = 1 m/s", ylabel="error")
 ax.legend()
 plt.show()
 # %% [markdown] lang="en"
-# ## Which half comes first
+# ## For engineers
 #
-# | | order | who |
-# |---|---|---|
-# | the chapter, this package | $(\boldsymbol\omega, \boldsymbol v)$ | Featherstone, RBDL, Drake |
-# | Pinocchio's memory | $(\boldsymbol v, \boldsymbol\omega)$ | `Motion`, `Force`, Jacobians, the base's part of `v` |
+# Nothing later needs this; come back to it when you write a program.
 #
-# Here only `tw.bridge` swaps, and only the parts of `v` that are a base.
+# ### Which half comes first
+#
+# Here, as in Featherstone's book, in RBDL and in Drake, $\boldsymbol\omega$ comes first. In Pinocchio's memory
+# $\boldsymbol v$ does: in `Motion`, `Force`, Jacobians, and the base's part of `v`. Only `tw.bridge` swaps. The chapter's
+# listing prints `data.v[0]`, which is the world's twist, always zero; the base is body 1.
 # %% [markdown] lang="zh"
-# ## 哪一半在前
+# ## 给工程师
 #
-# | | 顺序 | 谁在用 |
-# |---|---|---|
-# | 本章、本包 | $(\boldsymbol\omega, \boldsymbol v)$ | Featherstone、RBDL、Drake |
-# | Pinocchio 的内存布局 | $(\boldsymbol v, \boldsymbol\omega)$ | `Motion`、`Force`、雅可比矩阵、`v` 里属于基座的部分 |
+# 后面用不到这一部分,等到自己写程序时再看也不迟。
 #
-# 这里只有 `tw.bridge` 换序,而且只换 `v` 里属于基座的部分。
+# ### 哪一半在前
+#
+# 这里同 Featherstone 的书、RBDL 和 Drake 一样,$\boldsymbol\omega$ 在前。Pinocchio 的内存布局是 $\boldsymbol v$ 在前:`Motion`、`Force`、
+# 雅可比矩阵,以及 `v` 里属于基座的部分。只有 `tw.bridge` 换序。本章的代码打印的是 `data.v[0]`,那是世界的 twist,永远是零;基座是 1 号刚体。
 # %%
 tw.ask("49.2-order", ...)
 # %%
@@ -359,20 +469,16 @@ else:
     data = pin_model.createData()
     pin.forwardKinematics(pin_model, data, q, forward)
     assert not data.v[0].vector.any()  # index 0 is the world, not the base
-    v = np.random.default_rng(2).standard_normal(model.nv)
-    pin.forwardKinematics(pin_model, data, q, tw.bridge.to_pinocchio_tangent(model, v))
-    ours = tw.forward_kinematics(model, q, v).twist
+    some = np.random.default_rng(2).standard_normal(model.nv)
+    pin.forwardKinematics(pin_model, data, q, tw.bridge.to_pinocchio_tangent(model, some))
+    ours = tw.forward_kinematics(model, q, some).twist
     theirs = tw.bridge.from_pinocchio_motion([data.v[i].vector for i in range(model.nbodies)])
     assert np.abs(ours - theirs).max() < 1e-12 * np.abs(ours).max()
     print("the twists of all 14 bodies agree with Pinocchio")
 # %% [markdown] lang="en"
-# The chapter's listing prints `data.v[0]`. That is the world's twist, always zero; the base is body 1.
-#
-# Finally, the thin type `tw.Twist` can carry the name of its frame, and rejects sums that mean nothing:
+# A `tw.Twist` can carry the name of its frame. Then sums that mean nothing are rejected:
 # %% [markdown] lang="zh"
-# 本章的代码打印的是 `data.v[0]`。那是世界的 twist,永远是零;基座是 1 号刚体。
-#
-# 最后,轻量类型 `tw.Twist` 可以带上坐标系的名字,没有意义的加法会报错:
+# `tw.Twist` 可以带上坐标系的名字,没有意义的加法就会报错:
 # %%
 nonsense = {
     "two frames": lambda: tw.Twist(V, frame="base") + tw.Twist(V, frame="world"),
@@ -385,6 +491,23 @@ for name, attempt in nonsense.items():
         print(f"{name}: {error}\n")
     else:
         raise AssertionError(name)
+# %% [markdown] lang="en"
+# ### A derivative without a difference
+#
+# A difference over $10^{-5}$ s has nine digits, and no other step has many more: a shorter one rounds, a longer one bends.
+# With complex numbers there is nothing to subtract. $f(t + ih)$ has the imaginary part $h f'(t)$, and $h$ may be as
+# small as $10^{-100}$. The folded checks of later notebooks use this **complex step**.
+# %% [markdown] lang="zh"
+# ### 不作差的导数
+#
+# $10^{-5}$ s 的差分有九位有效数字,换别的步长也好不了多少:再短,舍入误差变大;再长,轨迹的弯曲显出来。用复数就不必相减:
+# $f(t + ih)$ 的虚部是 $h f'(t)$,而 $h$ 可以小到 $10^{-100}$。后面笔记本里折叠的检验用的就是这种**复数步长**。
+# %%
+h = 1e-100
+exact = placed(1j * h).imag / h
+print(f"error of the difference {np.abs(T_dot - exact).max():.1e}")
+assert np.allclose(tw.vee(np.linalg.inv(T) @ exact), body, rtol=1e-14, atol=1e-14)
+assert 1e-13 < np.abs(T_dot - exact).max() < 1e-9
 # %% [markdown] lang="en"
 # ## Exercises
 #

@@ -252,35 +252,14 @@ tw.ask("49.3-back", ...)
 # The way back needs no solver. $T_{BA}$ has the rotation $R^T$ and the translation $-R^T\boldsymbol p$, and with step 4
 #
 # $${}^B\!X_A = ({}^A\!X_B)^{-1} = \begin{pmatrix} R^T & 0 \\ -R^T[\boldsymbol p]_\times & R^T \end{pmatrix}.$$
-#
-# And how exact is a general inverse?
 # %% [markdown] lang="zh"
 # 往回变换不需要解方程。$T_{BA}$ 的旋转是 $R^T$,平移是 $-R^T\boldsymbol p$,再用第四步的恒等式:
 #
 # $${}^B\!X_A = ({}^A\!X_B)^{-1} = \begin{pmatrix} R^T & 0 \\ -R^T[\boldsymbol p]_\times & R^T \end{pmatrix}.$$
-#
-# 通用的矩阵求逆又有多准?
-# %%
-tw.ask("49.3-condition", ...)
-# %% [markdown] lang="en"
-# A general inverse is less exact, since the condition number of $X$ grows with the square of the distance:
-# %% [markdown] lang="zh"
-# 用通用的矩阵求逆反而更不精确,因为 $X$ 的条件数随距离的平方增长:
 # %%
 X_back = T_AB.inverse().motion_transform()
 assert np.allclose(X_back, np.block([[R.T, np.zeros((3, 3))], [-R.T @ tw.skew(p), R.T]]), atol=1e-15)
 assert np.allclose(X @ X_back, np.eye(6), atol=1e-15)
-turns, directions = tw.exp3(rng.standard_normal((50, 3))), rng.standard_normal((50, 3))
-for metres in (0.3, 10, 1000):
-    far = tw.SE3(turns, metres * directions)
-    exact = tw.SE3(turns.astype(np.longdouble), far.translation.astype(np.longdouble)).inverse().motion_transform()
-    solved, written = np.linalg.inv(far.motion_transform()), far.inverse().motion_transform()
-    errors = [float(np.abs(inverse - exact).max()) for inverse in (solved, written)]
-    cond = np.linalg.cond(far.motion_transform()).max()
-    print(
-        f"{metres:6} m: condition {cond:8.2g}, error of np.linalg.inv {errors[0]:.1e}, of the formula {errors[1]:.1e}"
-    )
-    assert errors[0] > 2 * errors[1]
 # %% [markdown] lang="en"
 # ## Wrenches: the power decides
 #
@@ -343,9 +322,10 @@ assert np.allclose(X.T @ by_hand, F_foot, atol=1e-13)  # and this is what Xᵀ i
 tw.ask("49.3-own", ...)
 # %% [markdown] lang="en"
 # With $X$ and $X^*$ the power is the same everywhere; with $X^T$ in the place of $X^*$ it is different in every frame, and
-# none of these numbers looks impossible.
+# none of these numbers looks impossible. On the site you drag the second frame yourself: [Two frames](../hands/frames.md).
 # %% [markdown] lang="zh"
 # 用 $X$ 与 $X^*$ 时功率处处相同;用 $X^T$ 代替 $X^*$,每个坐标系里的功率都不一样,而这些数没有一个看上去不可能。
+# 在网站上可以自己拖动第二个坐标系:[两个坐标系](../hands/frames.md)。
 # %%
 rates = rng.standard_normal(model.nv)
 V_foot = tw.frame_jacobian(model, q, "FR_foot", "local") @ rates
@@ -425,13 +405,58 @@ assert np.allclose(by_transpose, expected, atol=1e-13)
 assert np.isclose(by_star[2], expected[2])  # the first joint is right, so the slip survives a short test
 assert np.abs(by_star - expected).max() > 1
 # %% [markdown] lang="en"
-# ## Pinocchio
+# ## For engineers
+#
+# Nothing later needs this; come back to it when you write a program.
+#
+# ### How exact is a general inverse?
+#
+# `np.linalg.inv(X)` loses digits with the condition number of $X$: the largest factor by which it stretches a twist, times the
+# largest by which it shrinks one.
+# %% [markdown] lang="zh"
+# ## 给工程师
+#
+# 后面用不到这一部分,等到自己写程序时再看也不迟。
+#
+# ### 通用的矩阵求逆有多准?
+#
+# `np.linalg.inv(X)` 丢失多少位有效数字,要看 $X$ 的条件数:它把 twist 放大的最大倍数,乘以缩小的最大倍数。
+# %%
+ten_metres = tw.ask("49.3-condition", ...)
+ten_metres
+# %%
+turns, directions = tw.exp3(rng.standard_normal((50, 3))), rng.standard_normal((50, 3))
+directions /= np.linalg.norm(directions, axis=-1, keepdims=True)
+distances = np.geomspace(0.1, 1000, 13)
+condition, of_inv, of_formula = [], [], []
+for metres in distances:
+    far = tw.SE3(turns, metres * directions)
+    exact = tw.SE3(turns.astype(np.longdouble), far.translation.astype(np.longdouble)).inverse().motion_transform()
+    condition.append(np.linalg.cond(far.motion_transform()).max())
+    of_inv.append(np.abs(np.linalg.inv(far.motion_transform()) - exact).max())
+    of_formula.append(np.abs(far.inverse().motion_transform() - exact).max())
+assert (np.array(of_inv) > 1.5 * np.array(of_formula)).all()
+assert np.allclose(condition[-4:], distances[-4:] ** 2, rtol=0.01)
+# %%
+figure, axes = plt.subplots(1, 2, figsize=(10, 3.6), layout="constrained")
+axes[0].loglog(distances, condition, color=plot.COLOURS["blue"], label="condition number of X")
+axes[0].loglog(distances, distances**2, ":", color=plot.COLOURS["grey"], label="distance squared")
+if ten_metres.guess:
+    axes[0].plot(10, abs(ten_metres.guess), "D", color=plot.COLOURS["purple"], label="your guess")
+axes[1].loglog(distances, of_inv, ".-", color=plot.COLOURS["vermilion"], label="error of np.linalg.inv")
+axes[1].loglog(distances, of_formula, ".-", color=plot.COLOURS["blue"], label="error of the formula")
+for ax in axes:
+    ax.set_xlabel("distance of the frames [m]")
+    ax.legend()
+plt.show()
+# %% [markdown] lang="en"
+# ### Pinocchio
 #
 # `SE3.action` is $X$ in the order $(\boldsymbol v, \boldsymbol\omega)$: there $[\boldsymbol p]_\times R$ stands at the
 # *top right*. The chapter's listing looks for it at the bottom left and would stop with an AssertionError.
 # `SE3.dualAction` is $X^*$.
 # %% [markdown] lang="zh"
-# ## 与 Pinocchio 对照
+# ### 与 Pinocchio 对照
 #
 # `SE3.action` 是按 $(\boldsymbol v, \boldsymbol\omega)$ 排列的 $X$:其中 $[\boldsymbol p]_\times R$ 在*右上角*。
 # 本章的代码到左下角去找它,一运行就会 AssertionError。`SE3.dualAction` 是 $X^*$。

@@ -65,6 +65,72 @@ except TypeError as error:
 else:
     raise AssertionError("a wrench has been added to a twist")
 # %% [markdown] lang="en"
+# ## Action and reaction
+#
+# The ground pushes a foot, and the foot pushes the ground: two forces, equal and opposite, on *one* line. Their moments
+# about any point are then opposite too, so Newton's third law holds for all six numbers. If the ground gives the foot
+# the wrench $\boldsymbol F$, the foot gives the ground $-\boldsymbol F$, both in the same frame. In the picture the robot is
+# lifted off the ground, so that you see what acts on which body.
+# %% [markdown] lang="zh"
+# ## 作用力与反作用力
+#
+# 地面推脚,脚也推地面:两个力大小相等、方向相反,而且在*同一条*直线上。于是对任何一点的力矩也相反,牛顿第三定律对六个数全都成立。
+# 地面给脚的 wrench 是 $\boldsymbol F$,脚给地面的就是 $-\boldsymbol F$,两者在同一个坐标系里。图中把机器人从地面提了起来,好看清每个力作用在谁身上。
+# %%
+ax = plot.axes_2d(size=(8, 5.5))
+stand, gap = model.standing(), 0.15  # m: the robot is drawn higher by this
+held = tw.static_equilibrium(model, stand)
+lifted = stand.copy()
+lifted[2] += gap
+plot.side_view(model, lifted, com=False, ax=ax)
+ax.fill([-0.5, 0.5, 0.5, -0.5], [-0.17, -0.17, 0, 0], facecolor="0.9", edgecolor="0.4")
+for name, force in list(zip(model.feet, held.forces))[1::2]:
+    x, _, z = tw.frame_placement(model, stand, name).translation
+    length = force[2] / 300
+    ax.plot([x, x], [z, z + gap], ":", color=plot.COLOURS["black"])
+    for tip, colour, text in [(z + gap + length, "green", "F"), (z - length, "purple", "−F")]:
+        start = z + gap if tip > z else z
+        ax.annotate(
+            "", (x, tip), (x, start), arrowprops={"arrowstyle": "-|>", "color": plot.COLOURS[colour], "lw": 2.5}
+        )
+        ax.text(x + 0.02, (tip + start) / 2, text, color=plot.COLOURS[colour], fontsize=12)
+ax.plot([], [], color=plot.COLOURS["green"], linewidth=2.5, label="on the robot, by the ground")
+ax.plot([], [], color=plot.COLOURS["purple"], linewidth=2.5, label="on the ground, by the robot")
+ax.plot([], [], ":", color=plot.COLOURS["black"], label="one line")
+ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=3)
+plt.show()
+# %% [markdown] lang="en"
+# The two act on different bodies, so they do not cancel. In the balance of a body stands what acts *on* it, and never what
+# it does to others. It is the same in a joint. The thigh passes $\boldsymbol F$ on to the calf, and the calf gives
+# $-\boldsymbol F$ back. Together they have the power
+#
+# $$\boldsymbol F^T \boldsymbol V_{calf} - \boldsymbol F^T \boldsymbol V_{thigh} =
+# \boldsymbol F^T (\boldsymbol V_{calf} - \boldsymbol V_{thigh}) = \tau\,\dot q:$$
+#
+# only the relative motion counts, and that is the knee's. Of the six numbers in the joint the motor has one, and it does
+# all the work.
+# %% [markdown] lang="zh"
+# 一个作用在机器人上,一个作用在地面上,所以不会抵消。列一个刚体的平衡,只写别人作用在*它上面*的,不写它作用在别人上的。关节里也是一样。大腿把
+# $\boldsymbol F$ 传给小腿,小腿还给大腿 $-\boldsymbol F$。两者的总功率是
+#
+# $$\boldsymbol F^T \boldsymbol V_{calf} - \boldsymbol F^T \boldsymbol V_{thigh} =
+# \boldsymbol F^T (\boldsymbol V_{calf} - \boldsymbol V_{thigh}) = \tau\,\dot q:$$
+#
+# 只与相对运动有关,也就是膝的运动。关节里的六个数,电机只出其中一个,功却全是它做的。
+# %%
+kneeling = np.zeros(model.nv)
+kneeling[2:4], kneeling[6:9] = (0.6, 0.8), (0.5, 2.0, -3.0)  # the walk, and the front left leg bends
+terms, knee = tw.rnea_terms(model, stand, kneeling, np.zeros(model.nv)), model.joint_id("FL_calf_joint")
+thigh, calf = tw.forward_kinematics(model, stand).placement[knee - 1 : knee + 1]
+thigh_to_calf = (calf.inverse() @ thigh).motion_transform()
+relative = terms.V[knee] - thigh_to_calf @ terms.V[knee - 1]
+on_calf = terms.F[knee] @ terms.V[knee]
+on_thigh = -(thigh_to_calf.T @ terms.F[knee]) @ terms.V[knee - 1]
+motor = terms.tau[model.v_slice[knee]] @ kneeling[model.v_slice[knee]]
+assert np.allclose(relative, model.joints[knee].subspace() @ kneeling[model.v_slice[knee]], atol=1e-14)
+assert np.isclose(on_calf + on_thigh, motor, rtol=1e-12)
+assert not np.isclose(on_calf, motor, rtol=0.2)  # each of the two alone is no property of the motor
+# %% [markdown] lang="en"
 # ## The same watts in every frame
 #
 # The power does not depend on the frame: it is the same in the frame $B$ of the base, in the world $A$, and in the
@@ -77,7 +143,8 @@ else:
 # Written out, $\boldsymbol f_A = R \boldsymbol f_B$ and
 # $\boldsymbol\tau_A = R \boldsymbol\tau_B + \boldsymbol p \times R \boldsymbol f_B$: the force only turns, the moment
 # also gets the lever $\boldsymbol p$. The coupling that stands bottom left in $X$ stands top right in $X^*$. Note that
-# $X^*$ is not $X^T$: the transpose leads the *other way*, from $A$ to $B$.
+# $X^*$ is not $X^T$: the transpose leads the *other way*, from $A$ to $B$. On the site you move $B$, and watch twelve
+# numbers change while the power does not: [Two frames](../hands/frames.md).
 # %% [markdown] lang="zh"
 # ## 在每个坐标系里都是同样的瓦特数
 #
@@ -91,7 +158,7 @@ else:
 # 展开就是 $\boldsymbol f_A = R \boldsymbol f_B$ 和
 # $\boldsymbol\tau_A = R \boldsymbol\tau_B + \boldsymbol p \times R \boldsymbol f_B$:力只需旋转,力矩还要加上力臂
 # $\boldsymbol p$ 的一项。耦合项在 $X$ 里位于左下,在 $X^*$ 里位于右上。注意 $X^*$ 不是 $X^T$:转置走的是*反方向*,
-# 从 $A$ 到 $B$。
+# 从 $A$ 到 $B$。在网站上可以拖动 $B$,看着十二个数一起变,功率却不变:[两个坐标系](../hands/frames.md)。
 # %%
 base = tw.forward_kinematics(model, q).placement[1]
 foot = tw.frame_placement(model, q, "FR_foot")
@@ -147,8 +214,8 @@ plt.show()
 # %% [markdown] lang="en"
 # ## What a foot gets from the ground
 #
-# Go2 stands on rubber balls. A contact that small is a **point contact**: it transmits a force, but no moment about
-# itself.
+# Each foot of Go2 is a small rubber ball. A contact that small is a **point contact**: it transmits a force, but no
+# moment about itself.
 # %% [markdown] lang="zh"
 # ## 地面给脚的 wrench
 #
@@ -419,7 +486,7 @@ pressure = rng.exponential(25.0, (5000, 4))  # N, at the corners: they push
 slope, turned = mu * rng.random((5000, 4)), rng.uniform(0, 2 * np.pi, (5000, 4))
 rubbing = pressure[..., None] * np.stack([slope * np.cos(turned), slope * np.sin(turned), np.ones((5000, 4))], axis=-1)
 feet = wrench_of(rubbing)  # 5000 wrenches that the ground can bring about
-cop = plot.center_of_pressure(feet)
+cop = tw.center_of_pressure(feet)
 assert (np.abs(cop[:, 0]) <= d_x).all()
 assert (np.abs(cop[:, 1]) <= d_y).all()
 assert (np.abs(feet[:, 0]) <= d_y * feet[:, 5]).all()
@@ -449,13 +516,14 @@ for ax, (name, wrench) in zip(axes, stands.items()):
         ax.text(y, x, f"{force:.0f} N", ha="center", va="bottom" if x > 0 else "top", fontsize=9)
     ax.set(title=name, xlim=(0.05, -0.05), ylim=(-0.1, 0.13))
 plt.show()
-assert abs(plot.center_of_pressure(stands["impossible"])[0]) > d_x
+assert abs(tw.center_of_pressure(stands["impossible"])[0]) > d_x
 # %% [markdown] lang="en"
 # The chapter's table stops there: friction cone and COP. One moment is left without a bound, the one about the normal.
 # %% [markdown] lang="zh"
 # 本章的表格到此为止:摩擦锥加 COP。还有一个力矩没有界,就是绕法向的那个。
 # %%
-tw.ask("49.4-spin", ...)
+largest_moment = tw.ask("49.4-spin", ...)
+largest_moment
 # %% [markdown] lang="en"
 # Friction limits it too. No corner pushes sideways with more than $\mu f_i$, and none is further than
 # $\sqrt{d_x^2 + d_y^2}$ from the middle: so $|\tau_z| \le \mu f_z \sqrt{d_x^2 + d_y^2}$. A controller that forgets this
@@ -471,16 +539,31 @@ assert (np.abs(feet[:, 2]) / feet[:, 5]).max() > 0.5 * mu * reach  # and the bou
 
 twisting = np.array([0, 0, 100.0, 0, 0, 98.1])  # 100 N m about the normal
 assert np.hypot(*twisting[3:5]) <= mu * twisting[5]  # within the friction cone
-assert np.allclose(plot.center_of_pressure(twisting), 0)  # its COP in the middle of the sole
+assert np.allclose(tw.center_of_pressure(twisting), 0)  # its COP in the middle of the sole
+ax = plot.axes_2d(size=(7, 3))
+ax.hist(98.1 * np.abs(feet[:, 2]) / feet[:, 5], bins=60, color=plot.COLOURS["sky"], label="5000 ways to press and rub")
+ax.axvline(98.1 * mu * reach, color=plot.COLOURS["black"], label="the bound")
+largest_moment.draw(ax)
+ax.set(xlabel="moment about the normal, of 98.1 N on the sole [N m]", yticks=[])
+ax.legend(loc="upper center")
+plt.show()
 print(f"friction gives {mu * twisting[5] * reach:.1f} N m at most, not {twisting[2]:.0f}")
 assert twisting[2] > 10 * mu * twisting[5] * reach
 # %% [markdown] lang="en"
-# ## Pinocchio agrees
+# ## For engineers
+#
+# Nothing later needs this; come back to it when you write a program.
+#
+# ### Pinocchio agrees
 #
 # Its `Force` stores the force first, $(\boldsymbol f, \boldsymbol\tau)$; `SE3.act` applies $X^*$ to a `Force` and $X$ to
 # a `Motion`, so the type decides. `tw.bridge` does the reordering.
 # %% [markdown] lang="zh"
-# ## 与 Pinocchio 对照
+# ## 给工程师
+#
+# 后面用不到这一部分,等到自己写程序时再看也不迟。
+#
+# ### 与 Pinocchio 对照
 #
 # 它的 `Force` 把力存在前面,$(\boldsymbol f, \boldsymbol\tau)$；`SE3.act` 对 `Force` 用 $X^*$,对 `Motion` 用 $X$,由类型决定。
 # 换序交给 `tw.bridge`。

@@ -25,19 +25,55 @@ rng = np.random.default_rng(5)
 # %% [markdown] lang="en"
 # ## From ten numbers to a matrix
 #
-# A rigid body has a mass $m$, a centre of mass $\boldsymbol c$, and an inertia $I_c$ about it: 1 + 3 + 6 numbers. Let its
-# twist be $(\boldsymbol\omega, \boldsymbol v)$, about the origin $O$ of its frame. Its centre of mass moves with
-# $\boldsymbol v_C = \boldsymbol v + \boldsymbol\omega \times \boldsymbol c$. So its linear momentum is
-# $\boldsymbol p = m \boldsymbol v_C$, and its angular momentum about $O$ is
-# $\boldsymbol L_O = I_c \boldsymbol\omega + \boldsymbol c \times \boldsymbol p$. Collect what multiplies
-# $\boldsymbol\omega$ and what multiplies $\boldsymbol v$: that is the matrix.
+# A rigid body has a mass $m$, a centre of mass $C$ at $\boldsymbol c$, and an inertia $I_c$ about it: 1 + 3 + 6 numbers.
+# Its twist is $(\boldsymbol\omega, \boldsymbol v)$, where $\boldsymbol v = \boldsymbol v_O$ is the velocity of the origin $O$
+# of its frame.
 # %% [markdown] lang="zh"
 # ## 从十个数到一个矩阵
 #
-# 刚体有质量 $m$、质心 $\boldsymbol c$ 和关于质心的惯量 $I_c$：1 + 3 + 6 个数。设它的 twist 是
-# $(\boldsymbol\omega, \boldsymbol v)$,以自己坐标系的原点 $O$ 为参考点。质心的速度是
-# $\boldsymbol v_C = \boldsymbol v + \boldsymbol\omega \times \boldsymbol c$,所以线动量是
-# $\boldsymbol p = m \boldsymbol v_C$,关于 $O$ 的角动量是
+# 刚体有质量 $m$、位于 $\boldsymbol c$ 的质心 $C$ 和关于质心的惯量 $I_c$：1 + 3 + 6 个数。它的 twist 是
+# $(\boldsymbol\omega, \boldsymbol v)$,其中 $\boldsymbol v = \boldsymbol v_O$ 是坐标系原点 $O$ 的速度。
+# %%
+ax = plot.axes_2d(size=(8, 4.6))
+c, v_O, w = np.array([1.1, 0.45]), np.array([0.55, -0.15]), 0.7  # in a plane; ω points at you
+turned = w * np.array([-c[1], c[0]])  # ω × c
+around = np.linspace(0, 2 * np.pi, 100)
+tilt = np.array([[0.9, -0.43], [0.43, 0.9]])
+ax.fill(*(tilt @ [1.5 * np.cos(around), 0.75 * np.sin(around)] + 0.75 * c[:, None]), color="0.9", zorder=0)
+for start, arrow, colour, text, shift in [
+    ((0, 0), (0.45, 0), "black", "x", (0.04, -0.02)),
+    ((0, 0), (0, 0.45), "black", "y", (0.03, 0)),
+    ((0, 0), c, "grey", "$c$", (-0.75, -0.2)),
+    ((0, 0), v_O, "blue", "$v_O$", (0.03, -0.1)),
+    (c, v_O, "blue", "$v_O$", (0, -0.16)),
+    (c + v_O, turned, "vermilion", r"$\omega \times c$", (0.2, -0.35)),
+    (c, v_O + turned, "green", r"$v_C = v_O + \omega \times c$", (-1.0, -0.28)),
+]:
+    tip = np.add(start, arrow)
+    ax.annotate("", tip, start, arrowprops={"arrowstyle": "-|>", "color": plot.COLOURS[colour], "lw": 2})
+    ax.text(*(tip + shift), text, color=plot.COLOURS[colour], fontsize=13)
+arc = np.linspace(0.4 * np.pi, 1.75 * np.pi, 50)
+ax.plot(0.22 * np.cos(arc), 0.22 * np.sin(arc), color=plot.COLOURS["vermilion"])
+ax.plot(
+    0.22 * np.cos(arc[-1]), 0.22 * np.sin(arc[-1]), marker=(3, 0, 75), color=plot.COLOURS["vermilion"], markersize=9
+)
+ax.text(-0.42, 0.02, r"$\omega$", color=plot.COLOURS["vermilion"], fontsize=14)
+for point, name in [((0, 0), "O"), (c, "C")]:
+    ax.plot(*point, "o", color=plot.COLOURS["black"], markersize=7)
+    ax.text(*np.add(point, (-0.12, -0.17)), name, fontsize=13)
+ax.set(aspect="equal", xlim=(-0.9, 2.5), ylim=(-0.6, 1.55))
+ax.axis("off")
+plt.show()
+
+
+# %% [markdown] lang="en"
+# In the picture $C$ moves with $\boldsymbol v_C = \boldsymbol v_O + \boldsymbol\omega \times \boldsymbol c$. So the linear
+# momentum is $\boldsymbol p = m \boldsymbol v_C$. About $O$ it has the lever $\boldsymbol c$, which gives the angular momentum
+# $\boldsymbol L_O = I_c \boldsymbol\omega + \boldsymbol c \times \boldsymbol p$. Collect what multiplies
+# $\boldsymbol\omega$ and what multiplies $\boldsymbol v$: that is the matrix.
+# %% [markdown] lang="zh"
+# 图中 $C$ 的速度是 $\boldsymbol v_C = \boldsymbol v_O + \boldsymbol\omega \times \boldsymbol c$,所以线动量是
+# $\boldsymbol p = m \boldsymbol v_C$。它对 $O$ 的力臂是 $\boldsymbol c$,于是关于 $O$ 的角动量是
 # $\boldsymbol L_O = I_c \boldsymbol\omega + \boldsymbol c \times \boldsymbol p$。把乘 $\boldsymbol\omega$ 的和乘
 # $\boldsymbol v$ 的分别收集起来,就得到这个矩阵。
 # %% [markdown] lang="en"
@@ -173,7 +209,19 @@ plt.show()
 lengths, _ = plot.semi_axes(locked)
 print("semi-axes of the locked robot", lengths.round(3), "m")
 # %%
-tw.ask("49.5-roll", ...)
+times_as_large = tw.ask("49.5-roll", ...)
+times_as_large
+# %%
+trunk = model.inertia[1]
+times = np.diag(locked.matrix())[:3] / np.diag(trunk.matrix())[:3]
+ax = plot.axes_2d(size=(6.5, 2.8))
+ax.bar(["m", "Ixx", "Iyy", "Izz"], [locked.mass / trunk.mass, *times], color=plot.COLOURS["sky"])
+if times_as_large.guess is not None:
+    ax.plot("Ixx", times_as_large.guess, "D", color=plot.COLOURS["purple"], label="your guess")
+    ax.legend()
+ax.set(ylabel="times that of the trunk", title="the robot with locked legs, beside its trunk")
+plt.show()
+assert np.isclose(times[0], times_as_large.truth)
 # %% [markdown] lang="en"
 # An ellipsoid is not the shape of a link, and may stick out of it. But it shows that calves are thin, and that thighs
 # have their mass near the hip, where the motors sit. The chapter says "twelve links": there are thirteen bodies, the
@@ -295,7 +343,7 @@ assert np.allclose(cross @ W, -tw.cross_motion(W) @ V)
 assert np.allclose(cross @ V, 0)
 assert np.isclose((dual @ F) @ W, -F @ (cross @ W))  # the pair keeps the power
 
-T, h = tw.exp6(rng.standard_normal(6)), 1e-100  # derivatives by the complex step, as in 49.2
+T, h = tw.exp6(rng.standard_normal(6)), 1e-100  # derivatives by the complex step: the end of 49.2
 moving = T @ tw.exp6(1j * h * V)
 assert np.allclose(moving.motion_transform().imag / h, T.motion_transform() @ cross)
 assert np.allclose(moving.force_transform().imag / h, T.force_transform() @ dual)
@@ -365,63 +413,62 @@ assert np.allclose(L.imag / h, np.cross(w, heap.inertia_at_com @ w))
 flips = tw.ask("49.5-turnover", ...)
 flips
 # %% [markdown] lang="en"
-# No moment acts about the centre of mass (gravity has none there), so the momentum in the world is
-# constant. Each step uses exactly this: find the twist at half time, move the body along it with `exp6`, and see the
-# same momentum from the new place, $\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$. All three spins are one batch. The
-# panel of your guess is grey.
+# Gravity has no moment about the centre of mass, so we may leave it out. `tw.simulate` integrates the three flights side by
+# side; nothing tells it that momentum and energy have to stay. They do. The panel of your guess is grey.
 # %% [markdown] lang="zh"
-# 关于质心没有 wrench 作用
-# (重力对质心没有力矩),所以世界坐标系里的动量保持不变。每一步都利用这一点:先求半步处的 twist,用 `exp6`
-# 沿它移动刚体,再从新的位置看同一个动量,$\boldsymbol h \leftarrow X^{*-1} \boldsymbol h$。三种旋转作为一批一起计算。你猜的那一格是灰色的。
+# 重力对质心没有力矩,可以不算。`tw.simulate` 把三次飞行并排积分;没有人告诉它动量和能量必须守恒,结果却守住了。你猜的那一格是灰色的。
 # %%
-moments, axes = np.linalg.eigh(locked.inertia_at_com)
-axes *= np.linalg.det(axes)  # right-handed
-thrown = locked.transform(tw.SE3(axes, locked.com).inverse())  # seen from its principal axes
-assert np.allclose(thrown.matrix(), np.diag([*moments, *[locked.mass] * 3]), atol=1e-12)
+moments, axes = np.linalg.eigh(locked.inertia_at_com)  # the principal axes, in the frame of the base
+thrown = tw.Builder("locked Go2", base="floating", root_inertia=locked, gravity=[0, 0, 0]).build()
 
+spins = (4 * np.eye(3) + 0.02) @ axes.T  # one row for each throw, ω in the frame of the base
+throws = np.concatenate([spins, np.cross(locked.com, spins)], axis=-1)  # the centre of mass stays
+flight = tw.simulate(thrown, np.tile(thrown.neutral(), (3, 1)), throws, dt=0.01, duration=12)
+rates = flight.v[..., :3] @ axes  # ω along the principal axes
 
-def tumble(spins, dt, steps):
-    """Twists at each step, and the momentum in the world."""
-    I_inverse = np.linalg.inv(thrown.matrix())
-    h, T = thrown.momentum(spins), tw.exp6(np.zeros_like(spins))
-    twists, momenta = [], []
-    for _ in range(steps):
-        V = np.matvec(I_inverse, h)
-        twists.append(V)
-        momenta.append(np.matvec(T.force_transform(), h))
-        half = tw.exp6(V * dt / 2)
-        step = tw.exp6(dt * np.matvec(I_inverse, np.matvec(half.inverse().force_transform(), h)))
-        T, h = T @ step, np.matvec(step.inverse().force_transform(), h)
-    return np.array(twists), np.array(momenta)
-
-
-spins = np.concatenate([4 * np.eye(3) + 0.02, np.zeros((3, 3))], axis=-1)
-twists, momenta = tumble(spins, 0.01, 1200)
-assert np.allclose(momenta, momenta[0], rtol=0, atol=1e-12)  # conserved, to rounding
-energy = thrown.kinetic_energy(twists)
-drift = np.ptp(energy, axis=0).max() / energy.max()
-assert drift < 1e-3  # not built in: this is the error of the steps
-finer = thrown.kinetic_energy(tumble(spins, 0.005, 2400)[0])
-assert np.ptp(finer, axis=0).max() / energy.max() < drift / 3.5  # a quarter, or less, with half the step
+energy = locked.kinetic_energy(flight.v)
+placed = tw.forward_kinematics(thrown, flight.q).placement[1]
+momenta = np.matvec(placed.force_transform(), locked.momentum(flight.v))  # in the world
+assert np.allclose(energy, energy[0], rtol=1e-8)
+assert np.allclose(momenta, momenta[0], rtol=0, atol=1e-6)
 # %%
 figure, panels = plt.subplots(1, 3, figsize=(12, 3.2), layout="constrained", sharey=True)
 names = ["smallest", "middle", "largest"]
 for k, ax in enumerate(panels):
     for j, colour in enumerate(plot.XYZ):
-        ax.plot(0.01 * np.arange(1200), twists[:, k, j], color=colour, label=f"ω about the {names[j]}")
+        ax.plot(flight.t, rates[:, k, j], color=colour, label=f"ω about the {names[j]}")
     if flips.letter == "abc"[k]:
         ax.set_facecolor("0.92")
     ax.set(xlabel="time [s]", title=f"thrown about the {names[k]}, {moments[k]:.3f} kg m²")
 panels[0].set_ylabel("rad/s, in the body's axes")
 panels[0].legend(loc="lower right")
 plt.show()
-assert twists[:, [0, 2], [0, 2]].min() > 3.99  # about the smallest and the largest moment it spins on
-assert twists[:, 1, 1].min() < -3.9  # about the middle one it turns over
+assert rates[:, [0, 2], [0, 2]].min() > 3.99  # about the smallest and the largest moment it spins on
+assert rates[:, 1, 1].min() < -3.9  # about the middle one it turns over
+# %% [markdown] lang="en"
+# Here is the middle one from the side, at equal times, the legs on the robot's left blue and those on its right vermilion.
+# What is nearer is in front:
+# %% [markdown] lang="zh"
+# 下面从侧面看中间那一次,时间间隔相等;机器人左侧的腿是蓝色,右侧的是朱红色,近的挡住远的:
+# %%
+ax = plot.axes_2d(size=(13, 2.6))
+for k in range(10):
+    step = 78 * k  # half a somersault
+    plot.side_view(model, [*flight.q[step, 1], *q[7:]], shift=1.0 * k, com=False, ax=ax)
+    ax.text(1.0 * k, -0.55, f"{flight.t[step]:.1f} s", ha="center")
+ax.set(ylim=(-0.6, 0.45))
+ax.axis("off")
+plt.show()
+left_side = placed.rotation[:, 1, 1, 1]  # where the robot's left side points: along the world's y, or against it
+assert left_side[0] > 0.99
+assert left_side.min() < -0.99
 
 
 # %% [markdown] lang="en"
 # Nothing touches the robot: the term $\boldsymbol V\times^* \hat I \boldsymbol V$ alone turns it over, and back.
-# Spinning about the middle axis is possible, but unstable (the intermediate-axis theorem). Try it with your phone.
+# Spinning about the middle axis is possible, but unstable (the intermediate-axis theorem). Try it with your phone. Why this
+# axis and not the others? On the site you throw a book, and watch its momentum run along the curve where a sphere and an
+# ellipsoid meet: [The book that tumbles](../hands/tumbling.md).
 #
 # ## Pinocchio agrees
 #
@@ -429,7 +476,8 @@ assert twists[:, 1, 1].min() < -3.9  # about the middle one it turns over
 # entry by entry with its own. Run it. Do you agree?
 # %% [markdown] lang="zh"
 # 没有人碰它:单凭 $\boldsymbol V\times^* \hat I \boldsymbol V$ 就让机器人翻过去又翻回来。绕中间轴旋转是可能的,但不稳定
-# (中间轴定理)。拿手机试试看。
+# (中间轴定理)。拿手机试试看。为什么偏偏是这条轴?在网站上可以抛一本书,看它的角动量沿球面与椭球面的交线走:
+# [翻滚的书](../hands/tumbling.md)。
 #
 # ## 与 Pinocchio 对照
 #

@@ -317,7 +317,7 @@ def steps_around_a_circle():
 
 def axis_of_a_slow_turn():
     """The rounding of v, a few 1e-17 m/s, over ω."""
-    return "axis" if 1e-17 / 1e-13 > 1e-6 > 1e-16 else "none"
+    return "velocity" if 1e-17 / 1e-13 > 1e-6 > 1e-16 else "both"
 
 
 def singular_values_far_apart():
@@ -420,19 +420,19 @@ ORACLES = {
     "49.1-sign": yaw_of_a_push,
     "49.1-walked": lambda: 0.6 * 10,
     "49.1-negligible": coupling_terms_at_a_calf,
-    "49.1-full": lambda: 40 * 40,
     "49.1-rolled": lambda: quaternion_turns_up(np.sqrt(0.5), np.sqrt(0.5), 0, 0),
+    "49.1-full": lambda: 40 * 40,
     "49.2-origin": lambda: 0.6 * np.hypot(1.0, 0.5 + 0.8 / 0.6),  # ω times the distance of the axis
-    "49.2-centre": lambda: 0.4 / 0.5,
+    "49.2-centre": lambda: 0.8 / 0.6,
     "49.2-straight": steps_around_a_circle,
     "49.2-together": leg_that_turns_at_once,
     "49.2-slow": axis_of_a_slow_turn,
     "49.2-order": lambda: "rolls",  # 1 where ω about x is read
     "49.3-back": inverse_of_the_action,
-    "49.3-condition": singular_values_far_apart,
     "49.3-transpose": force_taken_by_the_transpose,
     "49.3-own": lambda: "own",  # X X = 1 for a transpose only if R² = 1 and p = 0
     "49.3-first": lambda: 1,  # the calf's is read before the first step
+    "49.3-condition": singular_values_far_apart,
     "49.4-parts": lambda: "sum",
     "49.4-four": line_of_four_forces,
     "49.4-couple": lambda: "nothing",

@@ -40,6 +40,7 @@ def random_postures():
         (lambda ax: plot.mass_matrix(MODEL, tw.crba(MODEL, Q), ax=ax), "flat"),
         (lambda ax: plot.fill_in(MODEL, ax=ax), "flat"),
         (lambda ax: plot.side_view(MODEL, Q, ax=ax), "flat"),
+        (lambda ax: plot.top_view(MODEL, Q, ax=ax), "flat"),
         (lambda ax: plot.support_polygon(np.eye(3), [0, 0, 1], ax=ax), "space"),
         (lambda ax: plot.foot_forces(MODEL, Q, np.ones((4, 3)), ax=ax), "space"),
     ],
@@ -249,3 +250,39 @@ def test_near_and_far_legs_have_their_own_colours_and_the_near_ones_are_in_front
     plot.side_view(MODEL, Q, com=False, ax=flat)
     colours = [line.get_color() for line in flat.lines]
     assert colours == [plot.COLOURS["blue"]] * 6 + [plot.COLOURS["grey"]] * 4 + [plot.COLOURS["vermilion"]] * 6
+
+
+# ---------------------------------------------------------------- from above
+
+
+def test_a_top_view_shows_x_and_y_of_the_legs_and_the_trunk_between_the_hips(flat):
+    q = MODEL.random_configuration(rng=3)
+    plot.top_view(MODEL, q, ax=flat)
+    T = tw.forward_kinematics(MODEL, q).placement
+    hips = [i for i in range(2, MODEL.nbodies) if MODEL.parent[i] == 1]
+    drawn = {tuple(line.get_xydata().ravel().round(9)) for line in flat.lines}
+    legs = [s for s in plot.sticks(MODEL, q) if not np.allclose(s[0], T[1].translation)]
+    assert drawn == {tuple(stick[:, :2].ravel().round(9)) for stick in legs}
+    outline = flat.patches[0].get_xy()
+    assert all(np.isclose(outline, T[i].translation[:2]).all(axis=1).any() for i in hips)
+
+
+@pytest.mark.parametrize("name", ["go2", "humanoid"])
+def test_the_wedge_of_a_top_view_points_where_the_robot_looks(name):
+    model = tw.load(name)
+    for yaw in (0.0, 2.0, -1.5):
+        q = model.standing()
+        q[:2], q[3:7] = (3, -1), [0, 0, np.sin(yaw / 2), np.cos(yaw / 2)]
+        ax = plot.top_view(model, q, ax=Figure().add_subplot())
+        left, tip, right, *_ = ax.patches[1].get_xy()
+        ahead = tip - (left + right) / 2
+        np.testing.assert_allclose(ahead / np.linalg.norm(ahead), [np.cos(yaw), np.sin(yaw)], atol=1e-12)
+        assert np.cross([*ahead, 0], [*(left - right), 0])[2] > 0  # x ahead, y to the left
+
+
+@pytest.mark.parametrize("name", ["planar_arm", "cart_pole"])
+def test_a_top_view_of_a_robot_that_is_bolted_down_has_all_its_sticks_and_no_trunk(name):
+    model = tw.load(name)
+    ax = plot.top_view(model, model.neutral(), ax=Figure().add_subplot())
+    assert len(ax.lines) == len(plot.sticks(model, model.neutral()))
+    assert not ax.patches

@@ -218,10 +218,27 @@ def test_a_text_without_its_twin_is_refused(tmp_path, cells, message):
         ("$S$(49.8)与**压力中心**(COP)", "$S$\uff0849.8\uff09与**压力中心**\uff08COP\uff09"),
         ("10 N m 与 2 kg m²", "10 N·m 与 2 kg·m²"),
         ("真的吗?真的!", "真的吗\uff1f真的\uff01"),
+        ("取 $t = 1$ s;$V$ 本身", "取 $t = 1$ s\uff1b$V$ 本身"),
+        ("滑动(Mozzi,1763)。", "滑动\uff08Mozzi\uff0c1763\uff09。"),
+        ("一次乘法 $x$;49.3 把它展开", "一次乘法 $x$\uff1b49.3 把它展开"),
+        ("那一块,$k$:\n\n$$x$$", "那一块\uff0c$k$\uff1a\n\n$$x$$"),
+        ("长度是 1:7 + 12", "长度是 1\uff1a7 + 12"),
+        ("多少 N?多少 rad/s²?", "多少 N\uff1f多少 rad/s²\uff1f"),
+        ("1,000 个,12:30 开始", "1,000 个\uff0c12:30 开始"),
+        ("在 (1, 0.5) m 处,转 $O(a, b)$", "在 (1, 0.5) m 处\uff0c转 $O(a, b)$"),
     ],
 )
 def test_chinese_is_set_as_chinese(typed, set_):
     assert build.chinese(typed) == set_
+
+
+WIDE_OR_CODE = re.compile(r"`[^`]+`|\$\$[^$]+\$\$|\$[^$]+\$|\]\([^)]*\)|\([^()\u4e00-\u9fff]*\)|\d[,:]\d\d|://")
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_no_mark_of_a_chinese_notebook_is_as_narrow_as_in_english(source):
+    words = [WIDE_OR_CODE.sub("", text) for text in texts(source, "zh")]
+    assert [text[max(0, k.start() - 12) : k.end() + 12] for text in words for k in re.finditer("[,;:?!()]", text)] == []
 
 
 # ---------------------------------------------------------------- what is in them

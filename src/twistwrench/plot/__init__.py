@@ -12,7 +12,7 @@ Needs matplotlib, which is imported when the first picture is made: ``pip instal
 - `flow`: what a recursion carries along the tree.
 - `sparsity`: the mass matrix and its factors beside the tree.
 - `stance`: a robot on its feet, with its support polygon.
-- `stride`: a robot from the side.
+- `stride`: a robot from the side, and from above.
 - `words`: figures with Chinese words.
 """
 
@@ -26,7 +26,7 @@ from .robot import robot, sticks
 from .screws import point_velocity, screw_axis, twist_field
 from .sparsity import fill_in, filled_in, mass_matrix, same_branch
 from .stance import foot_forces, hull, support_polygon
-from .stride import side_view
+from .stride import side_view, top_view
 from .style import COLOURS, XYZ, axes_2d, axes_3d, fit
 from .words import chinese
 
@@ -62,6 +62,7 @@ __all__ = [
     "sole",
     "sticks",
     "support_polygon",
+    "top_view",
     "tree_layout",
     "triad",
     "twist_field",

@@ -13,6 +13,7 @@ from ..spatial import Twist, Wrench, screw
 from ..spatial._vector import as_spatial
 from .frames import arrows
 from .style import COLOURS, as_drawable, as_drawable_number, axes_3d, fit
+from .words import word
 
 __all__ = ["point_velocity", "screw_axis", "twist_field"]
 
@@ -151,4 +152,5 @@ def twist_field(
     p = as_drawable(points, "points", 3)
     scale = as_drawable_number(scale, "scale")
     V = as_drawable(as_spatial(V, "V"), "V", 6)
+    label = label and word(label)
     return fit(arrows(p, point_velocity(V, p), scale=scale, colour=colour, label=label, ax=ax))

@@ -19,6 +19,7 @@ WIDE = (*range(0x2E80, 0x3100), *range(0x4E00, 0xA000), *range(0xFF00, 0xFF61))
 """The characters as wide as they are high: radicals, punctuation, Han, full-width forms."""
 WORDS = {
     "centre of mass": "质心",
+    "velocity": "速度",
     "full colour: ±{:.2g}, half: ±{:.2g}": "全色：±{:.2g}，半色：±{:.2g}",
     "grey: in both orders; orange: in M = L Lᵀ alone": "灰：两种顺序都有；橙：只在 M = L Lᵀ 中有",
     "force of the ground": "地面的力",

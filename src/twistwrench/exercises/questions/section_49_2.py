@@ -19,8 +19,8 @@ def origin() -> Facts:
 
 
 def centre() -> Facts:
-    """Distance to the left of the point that stands still, of a base that goes forward at 0.4 m/s and turns at 0.5."""
-    speed, turn = 0.4, 0.5
+    """Distance to the left of the point that stands still, of a base that walks at 0.8 m/s and turns at 0.6 rad/s."""
+    speed, turn = 0.8, 0.6
     return {
         "truth": float(tw.screw([0, 0, turn, speed, 0, 0]).point[1]),
         "inverse": turn / speed,
@@ -47,13 +47,13 @@ def together() -> Facts:
 
 
 def slow() -> Facts:
-    """Loss of digits where a body slides at 1 m/s and hardly turns, at 1e-13 rad/s."""
+    """Which is exact, the axis or a velocity, where a body slides at 1 m/s and hardly turns, at 1e-13 rad/s."""
     direction, through = np.array([0.36, 0.48, 0.80]), np.array([0.3, -0.2, 0.1])
     V = np.concatenate([1e-13 * direction, 1e-13 * np.cross(through, direction) + direction])
     nearest = through - direction * (direction @ through)
     axis = float(np.linalg.norm(tw.screw(V).point - nearest))
     velocity = float(np.linalg.norm(V[3:] + np.cross(V[:3], through) - direction))
-    truth = "axis" if axis > 1e-6 > velocity else "both" if velocity > 1e-6 else "none"
+    truth = "velocity" if axis > 1e-6 > velocity else "neither" if velocity > 1e-6 else "both"
     return {"truth": truth, "axis": 1000 * axis}
 
 
