@@ -224,9 +224,10 @@ difference = np.abs(forces_of_motion(model, q, v, a) - tau).max()
 print(f"yours against tw.rnea: {difference:.0e} of {np.abs(tau).max():.0f} N")
 assert difference < 1e-12 * np.abs(tau).max()
 # %% [markdown] lang="en"
-# So it stands in the package, with external wrenches, rotors, and vectors as columns, for batches and any number type:
+# So it stands in the package, with external wrenches, rotors, and vectors as columns, for batches and any number type. On
+# the site, with its numbers: [RNEA, line by line](../algorithms/rnea.md).
 # %% [markdown] lang="zh"
-# 程序包里就是这样写的,另外加上外力和转子惯量;向量写成列,所以批量的状态和任何数值类型都用同样的几行代码:
+# 程序包里就是这样写的,另外加上外力和转子惯量;向量写成列,所以批量的状态和任何数值类型都用同样的几行代码。本站上可以带着数值[逐行读 RNEA](../algorithms/rnea.md)。
 # %%
 print(inspect.getsource(newton_euler))
 # %%
