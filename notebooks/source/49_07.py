@@ -3,13 +3,12 @@
 #
 # Given the forces at the joints, how does the robot accelerate? You could build $M$ and solve. The articulated-body
 # algorithm does without $M$. At each joint it needs the inertia that the joint feels when everything beyond it is free to
-# move: the *apparent inertia*. This notebook shows it, follows the three passes on Go2, and measures how exact the answer
-# is.
+# move: the *apparent inertia*. You hold it in the hand, and the three passes grow from it.
 # %% [markdown] lang="zh"
 # # 49.7 ABA:正向动力学
 #
 # 给定各关节的力,机器人怎样加速?可以构造 $M$ 再求解。铰接体算法不用 $M$,只需要每个关节在外侧(远离基座)关节全部自由时
-# 所带动的惯量,即*表观惯量*。这个笔记本把它画出来,在 Go2 上走完三遍递推,最后看答案有多准。
+# 所带动的惯量,即*表观惯量*。先用手感受它,再由它长出三遍递推。
 # %%
 import twistwrench as tw
 
@@ -24,7 +23,9 @@ import numpy as np
 
 from twistwrench import newton_euler_3d, plot
 from twistwrench.algorithms.aba import articulated_body
+from twistwrench.model import tree_terms
 
+np.set_printoptions(precision=3, suppress=True)
 rng = np.random.default_rng(7)
 v, tau = rng.standard_normal((2, model.nv))
 rest = np.zeros(model.nv)
@@ -39,24 +40,22 @@ rest = np.zeros(model.nv)
 # %%
 tw.ask("49.7-rod", ...)
 # %% [markdown] lang="en"
-# The rod follows with $\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$ and takes
-# $\boldsymbol F = \hat I \boldsymbol a$. The hinge is free: it
-# transmits nothing along $S$, so $S^T \boldsymbol F = 0$. That gives $\ddot q$, and with it the force of the hand:
+# The rod follows with $\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$ and takes $\boldsymbol F = \hat I \boldsymbol a$:
+# that is all, because nothing moves yet ($\boldsymbol V \times^* \hat I \boldsymbol V = 0$) and nothing weighs. The hinge is
+# free and transmits nothing along $S$, so $S^T \boldsymbol F = 0$. That gives $\ddot q$, and with it the force of the hand:
 #
 # $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
 #
 # The bracket is an **articulated inertia**: the inertia of the rod minus the part along the free joint. Ten numbers no
-# longer describe it. If you push along the rod, the apparent mass is the whole mass. If you push across it, the rod
-# swings, and the apparent mass of a thin rod is a quarter of its mass.
+# longer describe it: which mass it shows depends on the direction.
 # %% [markdown] lang="zh"
-# 杆跟着动,$\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$,需要
-# $\boldsymbol F = \hat I \boldsymbol a$。关节是自由的:沿 $S$ 不传递力矩,所以 $S^T \boldsymbol F = 0$。由此得到
-# $\ddot q$,也就知道手要用多大的力:
+# 杆跟着动,$\boldsymbol a = \boldsymbol a_{hand} + S \ddot q$,需要 $\boldsymbol F = \hat I \boldsymbol a$。只有这一项,
+# 因为起初静止($\boldsymbol V \times^* \hat I \boldsymbol V = 0$),又不计重力。关节是自由的:沿 $S$ 不传递力矩,所以
+# $S^T \boldsymbol F = 0$。由此得到 $\ddot q$,也就知道手要用多大的力:
 #
 # $$\boldsymbol F = \Big(\hat I - \hat I S\,(S^T \hat I S)^{-1} S^T \hat I\Big)\,\boldsymbol a_{hand}.$$
 #
-# 括号里就是**铰接体惯量**:杆的惯量,减去沿自由关节的那部分。它不再能用十个数表示。沿着杆的方向推,表观质量就是全部质量;
-# 垂直于杆推,杆会摆开,细杆的表观质量只有四分之一。
+# 括号里就是**铰接体惯量**:杆的惯量,减去沿自由关节的那部分。它不再能用十个数表示:表观质量取决于方向。
 # %%
 rod = tw.chain(1, mass=2.0).inertia[1]  # 1 m long, hangs along −z
 S = tw.Revolute("y").subspace()
@@ -79,95 +78,178 @@ for ax, angle in zip(axes, np.deg2rad([0, 40, 90])):
 figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
 plt.show()
 # %% [markdown] lang="en"
-# Each point of a curve is the force that gives the hand 1 m/s² in some direction. If the hinge is locked, only the mass
-# of the rod counts, and the curve is a circle. If the hinge is free, the curve is an ellipse that is thin across the
-# rod.
-#
-# ## Three passes
-#
-# Now let the rod carry a tree, let it move, and give the joint a torque. For each body the whole tree outboard of its joint
-# acts as $\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A$: linear in the acceleration, whatever hangs on
-# it. (RNEA's $\boldsymbol F_i$; the bias wrench $\boldsymbol p_i^A$ is what it takes without acceleration.) The same
-# elimination as above, joint by joint from the tips:
-#
-# 1. **Outward**: twists $\boldsymbol V_i$, bias accelerations $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$;
-#    to begin with, $\hat I_i^A = \hat I_i$ and $\boldsymbol p_i^A = \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$.
-# 2. **Inward**: with $U_i = \hat I_i^A S_i$, $D_i = S_i^T U_i$, $u_i = \tau_i - S_i^T \boldsymbol p_i^A$, the
-#    apparent inertia and bias wrench at the parent are
-# $$\hat I_i^a = \hat I_i^A - U_i D_i^{-1} U_i^T, \qquad \boldsymbol p_i^a = \boldsymbol p_i^A + \hat I_i^a \boldsymbol c_i
-# + U_i D_i^{-1} u_i,$$
-#    taken into its frame: $\hat I_{\lambda}^A$ grows by $X_i^T \hat I_i^a X_i$, $\boldsymbol p_{\lambda}^A$ by
-#    $X_i^T \boldsymbol p_i^a$.
-# 3. **Outward**: $\ddot q_i = D_i^{-1}\big(u_i - U_i^T (X_i \boldsymbol a_\lambda + \boldsymbol c_i)\big)$, and on to the
-#    next.
-#
-# Where do the two formulas of step 2 come from? Write $\boldsymbol a' = X_i\boldsymbol a_\lambda + \boldsymbol c_i$ for the
-# acceleration that body $i$ has if its joint does not accelerate. Then $\boldsymbol a_i = \boldsymbol a' + S_i\ddot q_i$,
-# and the motor fixes the part of the wrench along the joint, $S_i^T\boldsymbol F_i = \tau_i$:
-#
-# $$S_i^T\big(\hat I_i^A(\boldsymbol a' + S_i\ddot q_i) + \boldsymbol p_i^A\big) = \tau_i
-# \quad\Rightarrow\quad \ddot q_i = D_i^{-1}(u_i - U_i^T\boldsymbol a').$$
-#
-# That is step 3. Put it back into $\boldsymbol F_i = \hat I_i^A\boldsymbol a_i + \boldsymbol p_i^A$:
-#
-# $$\boldsymbol F_i = \hat I_i^A\boldsymbol a' + U_i D_i^{-1}(u_i - U_i^T\boldsymbol a') + \boldsymbol p_i^A
-# = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
-# + \underbrace{\boldsymbol p_i^A + \hat I_i^a\boldsymbol c_i + U_i D_i^{-1}u_i}_{\boldsymbol p_i^a}.$$
-#
-# So, for the parent, the subtree is again an inertia and a bias wrench. The bias wrench has three parts: the previous
-# one, the effect of the velocities, and the reaction of the motor.
-#
-# The chapter writes $X_i^* \hat I X_i^{-1}$ and $X_i^* \boldsymbol p$ here, with $X_i$ from parent to child. That leads
-# outward, as in 49.6: the calf ends up above the thigh.
+# Each point of a curve is the force that gives the hand 1 m/s² in some direction: a circle if the hinge is locked, an
+# ellipse that is thin across the rod if it is free.
 # %% [markdown] lang="zh"
-# 曲线上每个点,是让手在某个方向得到 1 m/s² 所需的力。关节锁死时,只有杆的质量起作用,曲线是一个圆。关节自由时,
-# 曲线是椭圆,垂直于杆的方向很窄。
+# 曲线上每个点,是让手在某个方向得到 1 m/s² 所需的力:关节锁死时是一个圆;关节自由时是椭圆,垂直于杆的方向很窄。
+# %% [markdown] lang="en"
+# ## Two rods, line by line
 #
-# ## 三遍递推
+# The arm of notebook 49.6, its elbow bent by a right angle, turns at 1 and 2 rad/s, and its motors are switched off. How does
+# it accelerate? Whatever hangs beyond a joint, its wrench is linear in the acceleration of the body there:
 #
-# 现在让杆后面带上一棵树,让它运动,再给关节加上力矩。对每个刚体,关节外侧的整棵树表现为
-# $\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A$:无论子树是什么样,它对加速度总是线性的。(这就是 RNEA 的
-# $\boldsymbol F_i$;偏置力 $\boldsymbol p_i^A$ 是没有加速度时所需的。)做法与上面的消元一样,从末端开始,一个关节一个关节地做:
+# $$\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A.$$
 #
-# 1. **向外**：twist $\boldsymbol V_i$,偏置加速度 $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$;起初
-#    $\hat I_i^A = \hat I_i$，$\boldsymbol p_i^A = \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$。
-# 2. **向内**:令 $U_i = \hat I_i^A S_i$、$D_i = S_i^T U_i$、$u_i = \tau_i - S_i^T \boldsymbol p_i^A$,父连杆一侧的表观惯量和偏置力是
-# $$\hat I_i^a = \hat I_i^A - U_i D_i^{-1} U_i^T, \qquad \boldsymbol p_i^a = \boldsymbol p_i^A + \hat I_i^a \boldsymbol c_i
-# + U_i D_i^{-1} u_i,$$
-#    再换到它的坐标系:$\hat I_{\lambda}^A$ 加上 $X_i^T \hat I_i^a X_i$，$\boldsymbol p_{\lambda}^A$ 加上
-#    $X_i^T \boldsymbol p_i^a$。
-# 3. **向外**：$\ddot q_i = D_i^{-1}\big(u_i - U_i^T (X_i \boldsymbol a_\lambda + \boldsymbol c_i)\big)$,再到下一个。
+# The **bias wrench** $\boldsymbol p_i^A$ is what it takes without acceleration. **Pass 1**, outward, has what depends on
+# the velocities alone: the twists of 49.6, the bias acceleration $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$, and
+# $\boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$.
+# %% [markdown] lang="zh"
+# ## 两根杆,一行一行来
 #
-# 第 2 步的两个公式从哪里来?设 $\boldsymbol a' = X_i\boldsymbol a_\lambda + \boldsymbol c_i$,即关节没有加速度时刚体 $i$
-# 的加速度。于是 $\boldsymbol a_i = \boldsymbol a' + S_i\ddot q_i$,而电机决定了 wrench 沿关节的分量,
-# $S_i^T\boldsymbol F_i = \tau_i$:
+# 笔记本 49.6 的那条手臂:肘弯成直角,两个关节以 1 和 2 rad/s 转动,电机断电。它怎样加速?不管关节外侧挂着什么,
+# 所需的 wrench 对那里的刚体的加速度总是线性的:
+#
+# $$\boldsymbol F_i = \hat I_i^A \boldsymbol a_i + \boldsymbol p_i^A.$$
+#
+# **偏置力** $\boldsymbol p_i^A$ 是没有加速度时所需的。**第 1 遍**向外,只算由速度决定的量:49.6 的 twist、
+# 偏置加速度 $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$,以及 $\boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$。
+# %%
+arm, bend, speeds = tw.chain(2), np.deg2rad([0, -90]), np.array([1.0, 2.0])
+tree = tree_terms(arm, bend)
+S, X, I = tree.S, tree.X, tree.I
+V, c, pA = np.zeros((3, 3, 6))  # a row for the world and one for each rod
+# %%
+for i in (1, 2):
+    vJ = S[i] @ speeds[i - 1 : i]
+    V[i] = X[i] @ V[i - 1] + vJ
+    c[i] = tw.cross_motion(V[i]) @ vJ
+    pA[i] = tw.cross_force(V[i]) @ I[i] @ V[i]
+print(c, pA, sep="\n")
+# %% [markdown] lang="en"
+# **Pass 2**, inward, begins at the tip. Nothing hangs on rod 2: $\hat I_2^A = \hat I_2$. What does a unit acceleration of its
+# joint need, and how much of it along the joint? And what does the motor, here 0, leave for it?
+# %% [markdown] lang="zh"
+# **第 2 遍**向内,从末端开始。杆 2 上什么也没挂:$\hat I_2^A = \hat I_2$。关节的单位加速度需要多大的 wrench,其中沿关节的是多少?
+# 电机(这里是 0)又留下多少?
+# %%
+U = I[2] @ S[2]
+D = S[2].T @ U
+u = 0 - S[2].T @ pA[2]
+print(U.T, D, u)
+# %% [markdown] lang="en"
+# $D$ is the inertia of a rod about its end, $ml^2/3$. Now eliminate $\ddot q$, as with the hand. Write
+# $\boldsymbol a' = X_i\boldsymbol a_\lambda + \boldsymbol c_i$ for the acceleration of body $i$ if its joint does not
+# accelerate. The motor fixes the part of the wrench along the joint:
 #
 # $$S_i^T\big(\hat I_i^A(\boldsymbol a' + S_i\ddot q_i) + \boldsymbol p_i^A\big) = \tau_i
 # \quad\Rightarrow\quad \ddot q_i = D_i^{-1}(u_i - U_i^T\boldsymbol a').$$
 #
-# 这就是第 3 步。再代回 $\boldsymbol F_i = \hat I_i^A\boldsymbol a_i + \boldsymbol p_i^A$:
+# Put this back into $\boldsymbol F_i$, and the parent sees again an inertia and a bias wrench:
 #
-# $$\boldsymbol F_i = \hat I_i^A\boldsymbol a' + U_i D_i^{-1}(u_i - U_i^T\boldsymbol a') + \boldsymbol p_i^A
-# = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
+# $$\boldsymbol F_i = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
 # + \underbrace{\boldsymbol p_i^A + \hat I_i^a\boldsymbol c_i + U_i D_i^{-1}u_i}_{\boldsymbol p_i^a}.$$
+# %% [markdown] lang="zh"
+# $D$ 就是杆绕一端的转动惯量 $ml^2/3$。现在像用手握杆时那样消去 $\ddot q$。设
+# $\boldsymbol a' = X_i\boldsymbol a_\lambda + \boldsymbol c_i$ 为关节没有加速度时刚体 $i$ 的加速度。电机决定了 wrench 沿关节的分量:
 #
-# 所以对父连杆来说,子树仍是一个惯量和一个偏置力。偏置力有三部分:原有的、速度引起的、电机的反作用。
+# $$S_i^T\big(\hat I_i^A(\boldsymbol a' + S_i\ddot q_i) + \boldsymbol p_i^A\big) = \tau_i
+# \quad\Rightarrow\quad \ddot q_i = D_i^{-1}(u_i - U_i^T\boldsymbol a').$$
 #
-# 本章这里写的是 $X_i^* \hat I X_i^{-1}$ 和 $X_i^* \boldsymbol p$,而 $X_i$ 是从父到子。这和 49.6 一样是向外的:
-# 小腿会出现在大腿上方。
+# 代回 $\boldsymbol F_i$,父连杆看到的仍是一个惯量和一个偏置力:
+#
+# $$\boldsymbol F_i = \underbrace{(\hat I_i^A - U_i D_i^{-1}U_i^T)}_{\hat I_i^a}\,X_i\boldsymbol a_\lambda
+# + \underbrace{\boldsymbol p_i^A + \hat I_i^a\boldsymbol c_i + U_i D_i^{-1}u_i}_{\boldsymbol p_i^a}.$$
+# %%
+Ia = I[2] - U @ U.T / D
+pa = pA[2] + Ia @ c[2] + U @ (u / D[0])
+print(Ia.diagonal(), pa)
+# %% [markdown] lang="en"
+# The last three of the diagonal are kilograms: across the rod, beside it, along it. Taken into the frame of rod 1 by
+# $X_2^T$ (the chapter writes $X^*$ here, which leads outward, as in 49.6), they add to its own:
+# %% [markdown] lang="zh"
+# 对角线的后三个数单位是千克:垂直于杆、侧向、沿杆。用 $X_2^T$ 换到杆 1 的坐标系里(本章这里写的是 $X^*$,和 49.6 一样是向外的),加到它自己的上面:
+# %%
+IA1 = I[1] + X[2].T @ Ia @ X[2]
+pA1 = pA[1] + X[2].T @ pa
+print(IA1.diagonal(), pA1)
+# %% [markdown] lang="en"
+# Rod 1 carries all of rod 2 sideways, but only a part of it upward, where the elbow gives way. With the same lines for
+# joint 1 we are at the wall, which rises with $-\boldsymbol g$. **Pass 3**, outward again, puts in the accelerations. All
+# three, for any tree:
+# %% [markdown] lang="zh"
+# 杆 1 沿水平方向带动整根杆 2,向上却只带动一部分,因为肘会退让。对关节 1 用同样的几行,就到了墙,墙以 $-\boldsymbol g$ 上升。
+# **第 3 遍**再次向外,代入加速度。三遍合起来,对任意的树:
+# %%
+def accelerations(model, q, v, tau):
+    t, at, qdd = tree_terms(model, q), model.v_slice, np.zeros(model.nv)
+    V, c, pA, A = np.zeros((4, model.nbodies, 6))
+    IA, U, D, u = [*t.I], {}, {}, {}
+    for i in t.outward:
+        vJ = t.S[i] @ v[at[i]]
+        V[i] = t.X[i] @ V[t.parent[i]] + vJ
+        c[i] = tw.cross_motion(V[i]) @ vJ
+        pA[i] = tw.cross_force(V[i]) @ t.I[i] @ V[i]
+    for i in t.inward:
+        U[i] = IA[i] @ t.S[i]
+        D[i] = np.linalg.inv(t.S[i].T @ U[i])
+        u[i] = tau[at[i]] - t.S[i].T @ pA[i]
+        Ia = IA[i] - U[i] @ D[i] @ U[i].T
+        pa = pA[i] + Ia @ c[i] + U[i] @ D[i] @ u[i]
+        IA[t.parent[i]] = IA[t.parent[i]] + t.X[i].T @ Ia @ t.X[i]
+        pA[t.parent[i]] += t.X[i].T @ pa
+    A[0, 3:] = -model.gravity
+    for i in t.outward:
+        a = t.X[i] @ A[t.parent[i]] + c[i]
+        qdd[at[i]] = D[i] @ (u[i] - U[i].T @ a)
+        A[i] = a + t.S[i] @ qdd[at[i]]
+    return qdd
+# %%
+drop, qdd = accelerations(arm, bend, speeds, np.zeros(2)), tw.aba(model, q, v, tau)
+print("the arm:", drop, "rad/s²; does 49.6 agree?", tw.rnea(arm, bend, speeds, drop).round(12) + 0.0, "N m")
+difference = np.abs(accelerations(model, q, v, tau) - qdd).max()
+print(f"Go2, yours against tw.aba: {difference:.0e} of {np.abs(qdd).max():.0f} rad/s²")
+assert np.isclose(D, 1 / 3, rtol=0.01)
+assert np.allclose(Ia.diagonal()[3:], [0.25, 1, 1], rtol=0.01)
+assert np.allclose(IA1.diagonal()[[3, 5]], [1 + 1, 1 + 0.25], rtol=0.01)
+assert np.allclose(tw.rnea(arm, bend, speeds, drop), 0, atol=1e-12)
+assert difference < 1e-11 * np.abs(qdd).max()
+# %% [markdown] lang="en"
+# So it stands in the package; on the site, with its numbers: [ABA, line by line](../algorithms/aba.md).
+# %% [markdown] lang="zh"
+# 程序包里就是这样写的;本站上可以带着数值[逐行读 ABA](../algorithms/aba.md)。
 # %%
 print(inspect.getsource(articulated_body))
 # %% [markdown] lang="en"
-# That is the file itself: `tw.aba` checks its arguments, runs this, and raises an error for a singular $D_i$. Its intermediate
-# results are in the record that `tw.aba_terms` returns, an entry for each body.
+# The same three passes on Go2, in mid-stride in the air, its motors off. Outward go the twists; inward what each joint lets
+# its parent feel, least and greatest mass over all directions, and the bias force; outward again the accelerations, seen
+# from a world that rises.
 # %% [markdown] lang="zh"
-# 这就是源文件本身:`tw.aba` 检查参数,运行它,遇到奇异的 $D_i$ 就报错。中间结果都在 `tw.aba_terms` 返回的记录里,
-# 每个刚体一项。
+# 同样的三遍在 Go2 上:它在空中跨步,电机断电。向外传 twist;向内传每个关节让父连杆感到的量,即各方向上最小和最大的质量,以及偏置力;
+# 再向外传加速度,从向上加速的世界看。
 # %%
-terms = tw.aba_terms(model, q, v, tau)
-A, D, IA, pA, qdd = np.array(terms.A), terms.D, np.array(terms.IA), np.array(terms.pA), terms.qdd
+stride = rest.copy()
+stride[3] = 0.8  # m/s
+stride[7::3], stride[8::3] = [-5, 2, 2, -5], [4, -1.6, -1.6, 4]  # rad/s, thighs and calves
+fall = tw.aba_terms(model, q, stride, rest)
+# %%
+figure, axes = plt.subplots(3, 1, figsize=(10, 9.5), layout="constrained")
+blue, green, red = (plot.COLOURS[name] for name in ("blue", "green", "vermilion"))
+V_all, A_all, pa_all = (np.array(rows)[1:] for rows in (fall.V, fall.A, fall.pa))
+felt = np.linalg.eigvalsh(np.array(fall.Ia)[1:, 3:, 3:]).clip(0)
 
-assert np.array_equal(qdd, tw.aba(model, q, v, tau))
+
+def lengths(rows, part):
+    """Lengths of one half of each row."""
+    return np.linalg.norm(rows[:, part], axis=1)
+
+
+ends, turns = slice(3, 6), slice(0, 3)
+twist_texts = [f"{w:.1f} rad/s\n{x:.1f} m/s" for w, x in zip(lengths(V_all, turns), lengths(V_all, ends))]
+bias = lengths(pa_all, ends)
+felt_texts = [f"{low:.2f}–{high:.2f} kg\n{f:.1f} N" for (low, _, high), f in zip(felt, bias)]
+rate_texts = [f"{w:.0f} rad/s²\n{x:.1f} m/s²" for w, x in zip(lengths(A_all, turns), lengths(A_all, ends))]
+passes = [
+    ("1. outward: twists |ω|, |v|", twist_texts, lengths(V_all, ends), blue),
+    ("2. inward: apparent mass, bias force", felt_texts, felt[:, 2], red),
+    ("3. outward: accelerations |α|, |a|", rate_texts, lengths(A_all, ends), green),
+]
+for ax, (title, texts, amounts, colour) in zip(axes, passes):
+    plot.flow(model, ["", *texts], inward=colour == red, amounts=[0, *amounts], colour=colour, ax=ax)
+    ax.set_title(title, loc="left", fontsize=11)
+plt.show()
+
+terms = tw.aba_terms(model, q, v, tau)
+A, D, IA, pA = np.array(terms.A), terms.D, np.array(terms.IA), np.array(terms.pA)
 through = tw.joint_wrenches(model, q, v, qdd)
 assert np.allclose(np.matvec(IA, A)[1:] + pA[1:], through[1:], atol=1e-10)  # F = I^A a + p^A, for every body
 assert np.allclose(IA[0], 0, atol=1e-12)  # a base that is free hands nothing on to the world
@@ -201,11 +283,10 @@ tw.ask("49.7-chain", ...)
 
 # %% [markdown] lang="en"
 # The picture has six such rods, bent a little. At each hinge, it shows the apparent mass that the previous rod has to
-# move, drawn as above. If all hinges are locked, the circles grow with the number of rods. If all hinges are free, the
-# other five rods add little across the first rod, and much less than their mass along it.
+# move, drawn as above. On the site you hold such a chain and free its joints one by one: [Felt mass](../hands/felt.md).
 # %% [markdown] lang="zh"
-# 下面是六根这样的杆,稍有弯曲:每个关节处画的是前一根杆所要带动的表观质量,画法同上。关节全部锁死时,
-# 圆随杆数变大;关节全部自由时,后面五根杆在垂直于第一根杆的方向上几乎不增加惯量,在沿杆的方向上也远小于它们的质量。
+# 下面是六根这样的杆,稍有弯曲:每个关节处画的是前一根杆所要带动的表观质量,画法同上。在本站上可以捏住这样一串杆,
+# 逐个松开关节:[手感质量](../hands/felt.md)。
 # %%
 def through_joints(model, q):
     """Composite inertia of each subtree, and its apparent inertia at the parent's side of the free joint."""
@@ -280,9 +361,9 @@ figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", 
 plt.show()
 assert np.isclose(IA[1][0, 0] / M[0, 0], 0.24, atol=0.01)
 # %% [markdown] lang="en"
-# The base matters as much. Give the front left hip 1 N m.
+# The base matters as much.
 # %% [markdown] lang="zh"
-# 基座的影响同样大。在左前髋关节施加 1 N·m 的力矩。
+# 基座的影响同样大。
 # %%
 tw.ask("49.7-hip", ...)
 # %% [markdown] lang="en"
@@ -297,7 +378,6 @@ tw.ask("49.7-hip", ...)
 fixed, push = tw.load("go2", base="fixed"), np.eye(model.nv)[6]
 held = tw.aba(fixed, q[7:], rest[6:], push[6:]) - tw.aba(fixed, q[7:], rest[6:], rest[6:])
 loose = tw.aba(model, q, rest, push) - tw.aba(model, q, rest, rest)
-print(f"front left hip: {held[0]:.0f} rad/s² with the base held, {loose[6]:.0f} with the base free")
 assert np.allclose([held[0], loose[6]], [54.3, 95.5], atol=0.1)
 assert np.isclose(held[0], 1 / tw.aba_terms(model, q, rest, rest).D[2].item())  # the hip is joint 2
 assert np.allclose(held[3:], 0, atol=1e-12)  # held, the other legs notice nothing
@@ -305,12 +385,11 @@ assert (np.abs(loose[9:]) > 0.1).all()
 # %% [markdown] lang="en"
 # ## There and back
 #
-# `aba` and `rnea` are inverses of each other. It is a good test if two algorithms of different kinds agree. We do it
-# for a hundred random states at once.
+# `aba` and `rnea` are inverses of each other: two algorithms of different kinds, on a hundred random states at once.
 # %% [markdown] lang="zh"
 # ## 正逆互验
 #
-# `aba` 与 `rnea` 互为逆。两种不同的算法结果一致,是很好的检验。这里一次用一百个随机状态。
+# `aba` 与 `rnea` 互为逆。两种不同的算法,一次用一百个随机状态互相检验。
 # %%
 qs = np.array([model.random_configuration(rng=rng) for _ in range(100)])
 vs, taus = rng.standard_normal((2, 100, model.nv))
@@ -379,51 +458,79 @@ assert np.linalg.norm(tumbling[3:6] - down) > 0.5  # m/s²
 rate = tw.centroidal_momentum_rate(model, qs[0], vs[0], tumbling)
 assert np.allclose(rate, [0, 0, 0, *(model.mass * model.gravity)], atol=1e-10)
 # %% [markdown] lang="en"
-# ## Where there is no answer
+# ## Pinocchio agrees
 #
-# $D_i^{-1}$ exists only if the joint moves some inertia. If it does not, its acceleration is not determined: no number
-# would be right, and `aba` raises an error with the name of the joint. Real models have such joints.
+# In Python its `crba` already returns a symmetric matrix: the chapter's $M + M^T - \mathrm{diag}(M)$ doubles everything off
+# the diagonal. `np.linalg.solve` uses all entries: with the upper triangle alone it solves another problem.
 # %% [markdown] lang="zh"
-# ## 没有答案的地方
+# ## 与 Pinocchio 对照
 #
-# $D_i^{-1}$ 要求有惯量。如果一个关节带动的刚体都没有惯量,它的加速度就无法确定:没有一个数是对的,`aba` 会报错并指出关节的名字。真实的模型里就有这样的关节。
+# 在 Python 里,它的 `crba` 返回的已经是对称矩阵:本章的 $M + M^T - \mathrm{diag}(M)$ 会把对角线以外
+# 全部加倍。`np.linalg.solve` 使用矩阵的全部元素:如果只填了上三角,它解的就是另一个问题。
+# %%
+try:
+    import pinocchio as pin
+except ImportError:
+    pin = None
+    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
+else:
+    pin_model = tw.bridge.to_pinocchio_model(model)
+    data = pin_model.createData()
+    pin_v, pin_tau = (tw.bridge.to_pinocchio_tangent(model, x) for x in (v, tau))
+    theirs = pin.aba(pin_model, data, q, pin_v, pin_tau)
+    assert np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - qdd).max() < 1e-11 * np.abs(qdd).max()
+
+    M, h = pin.crba(pin_model, data, q), pin.nonLinearEffects(pin_model, data, q, pin_v)
+    assert np.array_equal(M, M.T)
+    assert np.allclose(np.linalg.solve(M, pin_tau - h), theirs)
+    doubled = M + M.T - np.diag(M.diagonal())
+    for wrong in (doubled, np.triu(M)):
+        off = np.abs(np.linalg.solve(wrong, pin_tau - h) - theirs).max()
+        print(f"off by {off:.0f} rad/s²")
+        assert off > 10
+# %% [markdown] lang="en"
+# ## For engineers: a hand without mass
+#
+# If a joint moves no inertia, its acceleration is not determined: no number would be right. `aba` raises an error with the
+# name of the joint; Pinocchio returns nan, and no error. Real models have such joints.
+# %% [markdown] lang="zh"
+# ## 给工程师:没有质量的手
+#
+# 如果一个关节带动的刚体都没有惯量,它的加速度就无法确定:没有一个数是对的。`aba` 会报错并指出关节的名字;
+# Pinocchio 返回 nan,而且不报错。真实的模型里就有这样的关节。
 # %%
 builder = tw.Builder("arm with a massless hand", base="fixed")
-forearm = tw.SpatialInertia(1.0, [0, 0, -0.25], np.diag([0.02, 0.02, 0.001]))
-builder.link("forearm", parent="base_link", joint=tw.Revolute("y"), inertia=forearm)
-below = tw.SE3(np.eye(3), [0, 0, -0.5])
+builder.link("forearm", parent="base_link", joint=tw.Revolute("y"), inertia=rod)
+below = tw.SE3(np.eye(3), [0, 0, -1])
 builder.link("hand", parent="forearm", joint=tw.Revolute("x"), joint_name="wrist", placement=below)
-arm = builder.build()
+bare = builder.build()
 try:
-    tw.aba(arm, [0.0, 0.0], [0.0, 0.0], [0.0, 0.0])
+    tw.aba(bare, [0.0, 0.0], [0.0, 0.0], [0.0, 0.0])
 except tw.SingularError as error:
     message = str(error)
-else:
-    raise AssertionError("a joint without inertia has been given an acceleration")
 print(message)
 assert "wrist" in message
-assert np.linalg.matrix_rank(tw.crba(arm, [0.0, 0.0])) == 1
+assert np.linalg.matrix_rank(tw.crba(bare, [0.0, 0.0])) == 1
+if pin:
+    pin_bare = tw.bridge.to_pinocchio_model(bare)
+    assert np.isnan(pin.aba(pin_bare, pin_bare.createData(), *np.zeros((3, 2)))).any()
 # %% [markdown] lang="en"
-# ## How exact?
+# ## For engineers: how exact?
 #
-# Take a chain of ten rods whose mass grows from the first to the last, and compute $\ddot q$ in fifty digits, with 3-D
-# vectors (`newton_euler_3d`). These are the true values. How exact are `aba`, and `crba` with `solve`, in double
-# precision?
+# Ten rods whose mass grows from the first to the last; fifty digits and 3-D vectors (`newton_euler_3d`) give the truth. How
+# exact are `aba`, and `crba` with `solve`, in double precision?
 # %% [markdown] lang="zh"
-# ## 有多准?
+# ## 给工程师:有多准?
 #
-# 取十根杆连成的链,质量从第一根到最后一根逐渐增大,用 3D 向量以五十位数字算出 $\ddot q$(`newton_euler_3d`),作为真值。
+# 十根杆连成的链,质量从第一根到最后一根逐渐增大;真值由 3D 向量以五十位数字算出(`newton_euler_3d`)。
 # 用双精度的 `aba`,以及 `crba` 加 `solve`,各有多准?
 # %%
 tw.ask("49.7-tip", ...)
 # %% [markdown] lang="en"
-# Every entry of $M$ contains the heavy tip, so the digits of a light rod are lost in rounding. ABA first
-# removes what the free joint lets go, and only then adds the rest to the parent. A light tip harms neither of the two, although $M$
-# then has a larger condition number than with equal rods. So the condition number alone does not tell how exact the
-# result is.
+# A light tip harms neither of the two, although $M$ then has a larger condition number than with equal rods: that number
+# alone does not tell how exact the result is.
 # %% [markdown] lang="zh"
-# $M$ 的每个元素里都有沉重的末端,轻的杆淹没在舍入误差里。ABA 在每个自由关节处,先减去随关节自由运动的部分,再相加。末端很轻时,两者都不受影响,
-# 尽管这时 $M$ 的条件数比等质量时更大:只看条件数,不能判断结果有多准。
+# 末端很轻时,两者都不受影响,尽管这时 $M$ 的条件数比等质量时更大:只看条件数,不能判断结果有多准。
 # %%
 ratios = np.array([1e-9, 1e-6, 1e-3, 1e0, 1e3, 1e6, 1e9])
 errors, conditions = np.zeros((2, len(ratios), 5)), []
@@ -452,41 +559,6 @@ assert by_aba[-1] < 1e-3 * by_solving[-1]  # a heavy tip: three digits more
 assert by_aba[:4].max() < 1e-12
 assert by_solving[0] < 1e-12
 assert conditions[0] > conditions[3]  # worse conditioned, and exact all the same
-# %% [markdown] lang="en"
-# ## Pinocchio agrees
-#
-# Three more things to know. Its `crba` already returns a symmetric matrix in Python: the chapter's $M + M^T -
-# \mathrm{diag}(M)$ doubles everything off the diagonal. `np.linalg.solve` uses all entries: if only the upper triangle
-# is filled, it solves another problem. And for the arm above, Pinocchio's `aba` returns nan without an error.
-# %% [markdown] lang="zh"
-# ## 与 Pinocchio 对照
-#
-# 另外有三点要知道。在 Python 里,它的 `crba` 返回的已经是对称矩阵:本章的 $M + M^T - \mathrm{diag}(M)$ 会把对角线以外
-# 全部加倍。`np.linalg.solve` 使用矩阵的全部元素:如果只填了上三角,它解的就是另一个问题。还有,对上面那条手臂,
-# Pinocchio 的 `aba` 返回 nan,而且不报错。
-# %%
-try:
-    import pinocchio as pin
-except ImportError:
-    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
-else:
-    pin_model = tw.bridge.to_pinocchio_model(model)
-    data = pin_model.createData()
-    pin_v, pin_tau = (tw.bridge.to_pinocchio_tangent(model, x) for x in (v, tau))
-    theirs = pin.aba(pin_model, data, q, pin_v, pin_tau)
-    assert np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - qdd).max() < 1e-11 * np.abs(qdd).max()
-
-    M, h = pin.crba(pin_model, data, q), pin.nonLinearEffects(pin_model, data, q, pin_v)
-    assert np.array_equal(M, M.T)
-    assert np.allclose(np.linalg.solve(M, pin_tau - h), theirs)
-    doubled = M + M.T - np.diag(M.diagonal())
-    for wrong in (doubled, np.triu(M)):
-        off = np.abs(np.linalg.solve(wrong, pin_tau - h) - theirs).max()
-        print(f"off by {off:.0f} rad/s²")
-        assert off > 10
-
-    pin_arm = tw.bridge.to_pinocchio_model(arm)
-    assert np.isnan(pin.aba(pin_arm, pin_arm.createData(), np.zeros(2), np.zeros(2), np.zeros(2))).any()
 # %% [markdown] lang="en"
 # ## Exercises
 #

@@ -2,13 +2,13 @@
 # # 49.8 CRBA: the mass matrix
 #
 # $M(q)$ is the inertia of a robot at each joint, and the coupling of one joint with another. RNEA and ABA do not need
-# it; controllers that solve a quadratic program do. This notebook shows where each entry of $M$ comes from, which
-# entries are zero and why, and what the computation costs.
+# it; controllers that solve a quadratic program do. Where does each entry come from, which are zero and why,
+# and what does it cost?
 # %% [markdown] lang="zh"
 # # 49.8 CRBA:质量矩阵
 #
 # $M(q)$ 是机器人在每个关节处的惯量,以及一个关节与另一个关节的耦合。RNEA 和 ABA 都用不着它,
-# 而求解二次规划的控制器需要它。这个笔记本弄清 $M$ 的每个元素从哪里来,哪些元素为零、为什么为零,以及计算的代价。
+# 而求解二次规划的控制器需要它。每个元素从哪里来,哪些为零、为什么,代价又是多少?
 # %%
 import twistwrench as tw
 
@@ -21,11 +21,12 @@ import numpy as np
 
 from twistwrench import plot
 from twistwrench.algorithms.crba import composite_rigid_body
+from twistwrench.model import tree_terms
 
+np.set_printoptions(precision=3, suppress=True)
 rng = np.random.default_rng(8)
 q = model.random_configuration(rng=rng)  # nothing is zero by accident here
 rest = np.zeros(model.nv)
-names = [name.removesuffix("_joint") for name in model.joint_names]
 
 
 # %% [markdown] lang="en"
@@ -81,22 +82,96 @@ assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
 
 
 # %% [markdown] lang="en"
-# ## Composite inertia
+# ## Two rods, line by line
 #
-# Let joint $j$ carry joint $k$. Then the bodies outboard of both are those outboard of $k$, and with the other joints
-# locked they move as one rigid body. Its inertia $I^C_k$, the **composite inertia**, is the sum of their inertias in
-# frame $k$. It is computed from the tips inward: each body adds its composite inertia to that of its parent.
+# The experiments again, by hand, on the arm of notebook 49.6 with its elbow bent by a right angle. Column 2 first: the elbow
+# accelerates with 1 rad/s², the shoulder not at all. Rod 2 alone moves. It needs the wrench $F = \hat I_2 S_2$, and the
+# elbow's motor supplies the part along its own axis:
 # %% [markdown] lang="zh"
-# ## 复合刚体惯量
+# ## 两根杆,一行一行来
 #
-# 设关节 $j$ 在 $k$ 的内侧(靠近基座)。那么位于两者外侧的刚体就是 $k$ 外侧的那些;其余关节锁死时,它们像一个刚体一样运动。
-# 这个刚体的惯量 $I^C_k$ 叫**复合刚体惯量**,是各个刚体的惯量换到坐标系 $k$ 后的和:从末端向内,每个刚体把自己的加到
-# 带动它的那个刚体上。
+# 在笔记本 49.6 那条肘弯成直角的手臂上,亲手再做一遍这些实验。先看第 2 列:肘以 1 rad/s² 加速,肩没有加速度。只有杆 2 在动。
+# 它需要的 wrench 是 $F = \hat I_2 S_2$,肘电机提供沿自己轴的那一份:
+# %%
+arm, bend = tw.chain(2), np.deg2rad([0, -90])
+tree = tree_terms(arm, bend)
+S, X, I = tree.S, tree.X, tree.I
+F = I[2] @ S[2]
+print(F.T, "M22:", S[2].T @ F)
 # %% [markdown] lang="en"
-# **Exercise 49.8.1.** The base carries everything. What is then the upper left 6 × 6 block of $M$? The chapter calls it the inertia of the base,
+# A moment of $ml^2/3$, and 0.5 N for the middle of the rod. The whole wrench goes on to rod 1, $X_2^T$ inward, and the
+# shoulder's motor must hold against its part:
+# %% [markdown] lang="zh"
+# 力矩是 $ml^2/3$,另有 0.5 N 使杆的中点加速。整个 wrench 传给杆 1,用 $X_2^T$ 向内;肩电机要顶住属于自己的一份:
+# %%
+F = X[2].T @ F
+print(F.T, "M12:", S[1].T @ F)
+# %% [markdown] lang="en"
+# Column 1: the shoulder accelerates, the elbow does not, and both rods move as one rigid body. Its inertia, the **composite
+# inertia** $\hat I^C_1$, is the sum in frame 1:
+# %% [markdown] lang="zh"
+# 第 1 列:肩加速而肘不动,两根杆像一个刚体一样运动。它的惯量叫**复合刚体惯量** $\hat I^C_1$,是两者在坐标系 1 里的和:
+# %%
+IC1 = I[1] + X[2].T @ I[2] @ X[2]
+F = IC1 @ S[1]
+print(F.T, "M11:", S[1].T @ F)
+# %% [markdown] lang="en"
+# $\tfrac13$ for rod 1, and $\tfrac1{12} + (1^2 + 0.5^2)$ for rod 2, whose middle is further out. For any tree, from the tips
+# inward, with a climb to the base for each joint:
+#
+# $$M_{kk} = S_k^T \hat I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
+# %% [markdown] lang="zh"
+# 杆 1 是 $\tfrac13$;杆 2 的中点离肩更远,是 $\tfrac1{12} + (1^2 + 0.5^2)$。对任意的树,从末端向内,每个关节再爬到基座:
+#
+# $$M_{kk} = S_k^T \hat I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
+# %%
+def matrix_of_inertia(model, q):
+    t, at, M = tree_terms(model, q), model.v_slice, np.zeros((model.nv, model.nv))
+    IC = [*t.I]
+    for i in t.inward:
+        j, F = i, IC[i] @ t.S[i]
+        M[at[i], at[i]] = t.S[i].T @ F
+        while t.parent[j] > 0:
+            j, F = t.parent[j], t.X[j].T @ F
+            M[at[j], at[i]] = t.S[j].T @ F
+            M[at[i], at[j]] = M[at[j], at[i]].T
+        IC[t.parent[i]] = IC[t.parent[i]] + t.X[i].T @ IC[i] @ t.X[i]
+    return M
+# %%
+print(matrix_of_inertia(arm, bend))
+difference = np.abs(matrix_of_inertia(model, q) - M).max()
+print(f"Go2, yours against tw.crba: {difference:.0e} of {M.max():.0f} kg")
+assert np.allclose(matrix_of_inertia(arm, bend), [[5 / 3, 1 / 3], [1 / 3, 1 / 3]], rtol=0.003)
+assert np.allclose(matrix_of_inertia(arm, bend), tw.crba(arm, bend), rtol=1e-12)
+assert difference < 1e-12 * M.max()
+# %% [markdown] lang="en"
+# So it stands in the package; on the site, with its numbers: [CRBA, line by line](../algorithms/crba.md). (The chapter's pseudocode climbs with $X^*$ of an $X$ that leads outward, which is the wrong
+# way round; and it stops before link 0, which is the base, so its matrix has no base rows.)
+# %% [markdown] lang="zh"
+# 程序包里就是这样写的;本站上可以带着数值[逐行读 CRBA](../algorithms/crba.md)。(本章伪代码爬升时用的是向外的 $X$ 的 $X^*$,方向反了;
+# 而且它到 0 号连杆,也就是基座之前就停了,所以算出的矩阵没有基座行。)
+# %%
+print(inspect.getsource(composite_rigid_body))
+# %% [markdown] lang="en"
+# Inward goes a sum: what each joint of Go2 would move if all joints beyond it were locked. The base carries everything.
+# %% [markdown] lang="zh"
+# 向内传的是一个和:外侧关节全部锁死时,Go2 的每个关节要带动多少。基座承载着一切。
+# %%
+terms = tw.crba_terms(model, q)
+masses = [float(IC[3, 3]) for IC in terms.IC]
+plot.flow(model, ["", *(f"{mass:.2f} kg" for mass in masses[1:])], inward=True, amounts=masses)
+plt.show()
+placement = tw.forward_kinematics(model, q).placement
+calf, thigh = model.joint_id("FR_calf_joint"), model.joint_id("FR_thigh_joint")
+link = placement[thigh].inverse() @ placement[calf]
+both = model.inertia[thigh] + model.inertia[calf].transform(link)
+assert np.allclose(terms.IC[thigh], both.matrix(), rtol=1e-12, atol=1e-12)  # the calf is all that the thigh carries
+assert np.isclose(masses[1], model.mass)
+# %% [markdown] lang="en"
+# **Exercise 49.8.1.** What is then the upper left 6 × 6 block of $M$? The chapter calls it the inertia of the base,
 # and not diagonal because of the centre of mass. Build it from the inertias of the bodies, and see whether you agree.
 # %% [markdown] lang="zh"
-# **练习 49.8.1。** 基座承载着一切。那么 $M$ 左上角的 6 × 6 块是什么?本章说它是基座的惯量,因质心位置而不是对角阵。由各刚体的惯量构造它,
+# **练习 49.8.1。** 那么 $M$ 左上角的 6 × 6 块是什么?本章说它是基座的惯量,因质心位置而不是对角阵。由各刚体的惯量构造它,
 # 看看你是否同意。
 # %%
 def base_block(model, q):
@@ -105,68 +180,24 @@ def base_block(model, q):
 
 
 tw.exercises.check("49.8.1", base_block)
-# %%
-placement = tw.forward_kinematics(model, q).placement
-link = [None, None, *(placement[model.parent[i]].inverse() @ placement[i] for i in range(2, model.nbodies))]
-terms = tw.crba_terms(model, q)  # what `crba` computes on its way to M
-
-calf, thigh = model.joint_id("FR_calf_joint"), model.joint_id("FR_thigh_joint")
-both = model.inertia[thigh] + model.inertia[calf].transform(link[calf])
-assert np.allclose(terms.IC[thigh], both.matrix(), rtol=1e-12, atol=1e-12)  # the calf is all that the thigh carries
-
-masses = [float(IC[3, 3]) for IC in terms.IC]
-assert np.isclose(masses[1], model.mass)  # the base carries everything
-
-plot.flow(model, ["", *(f"{mass:.2f} kg" for mass in masses[1:])], inward=True, amounts=masses)
-plt.show()
 # %% after="49.8.1"
 com = tw.unskew(terms.IC[1][:3, 3:]) / masses[1]
 assert np.allclose(M[:6, :6], terms.IC[1], rtol=1e-12, atol=1e-12)
 assert np.allclose(com, placement[1].inverse().act(tw.center_of_mass(model, q)), rtol=1e-12, atol=1e-12)
 # %% [markdown] lang="en"
-# ## Entry by entry
+# ## Which entries are zero
 #
-# Now one column, for the right front calf. A unit acceleration of the knee needs the wrench $F = I^C S$ on the calf. The
-# knee's motor supplies the part along its own axis: the diagonal entry. The whole wrench is passed on to the thigh, whose
-# joint must hold against its part, $S_j^T F$, and so on down to the base:
-#
-# $$M_{kk} = S_k^T I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
+# The climb from a joint visits the joints between it and the base, and no others.
 # %% [markdown] lang="zh"
-# ## 逐个元素
+# ## 哪些元素为零
 #
-# 现在来算一列,右前小腿的那一列。膝关节的单位加速度要求小腿上有 wrench $F = I^C S$。膝电机提供沿自己轴的那一份:
-# 对角元素。整个 wrench 传给大腿,大腿的关节要顶住属于自己的一份 $S_j^T F$,就这样一直传到基座:
-#
-# $$M_{kk} = S_k^T I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
-# %%
-for j in model.support(calf):  # from the calf to the base
-    F = terms.F[j, calf][:, 0]  # the wrench of a unit acceleration of the knee, in frame j
-    entries = model.joints[j].subspace().T @ F
-    print(f"along {names[j]:8} {entries.round(4)}")
-    assert np.abs(entries - M[model.v_slice[j], model.v_slice[calf].start]).max() < 1e-12
-
-F_thigh = link[calf].force_transform() @ terms.F[calf, calf]
-assert np.allclose(terms.F[thigh, calf], F_thigh, rtol=1e-12, atol=1e-12)  # T_λj leads inward, and so does its X*
-print(inspect.getsource(composite_rigid_body))
+# 从一个关节往上爬,只经过它与基座之间的关节,不经过别的。
 # %%
 tw.ask("49.8-zeros", ...)
 # %% [markdown] lang="en"
-# The last six numbers are a wrench on the base, moment first. The way to the base never visits another leg, so those
-# entries are zero. Above is the whole algorithm, as it stands in the package: inward, with a climb to the base for each
-# joint. (The chapter's pseudocode climbs with $X^*$ of an $X$ that leads outward, which is the wrong way round; and it
-# stops before link 0, which is the base, so its matrix has no base rows.)
-#
-# ## Which entries are zero
-#
 # Here is $M$ beside the tree. The colours show the largest value that each entry took in 50 random postures; what is
 # white was zero in all of them.
 # %% [markdown] lang="zh"
-# 最后六个数是作用在基座上的 wrench,力矩在前。通往基座的路从不经过别的腿,所以那些元素是零。上面就是程序包里的完整算法:
-# 由外向内,并从每个关节爬到基座。(本章伪代码爬升时用的是向外的 $X$ 的 $X^*$,方向反了;
-# 而且它到 0 号连杆,也就是基座之前就停了,所以算出的矩阵没有基座行。)
-#
-# ## 哪些元素为零
-#
 # 下面是 $M$ 和运动树。颜色表示每个元素在 50 个随机位形中取到的最大值,白色表示在所有这些位形中都是零。
 # %%
 postures = np.array([model.random_configuration(rng=rng) for _ in range(50)])
@@ -250,9 +281,9 @@ assert eigenvalues.min() > 0
 assert np.linalg.matrix_rank(M) == 18
 
 builder = tw.Builder("arm with a bare tool")
-rod = tw.SpatialInertia(1.0, [0, 0, -0.5], np.diag([0.084, 0.084, 0.001]))
+end, rod = tw.SE3(np.eye(3), [0, 0, -1]), tw.SpatialInertia(1.0, [0, 0, -0.5], np.diag([0.084, 0.084, 0.001]))
 builder.link("upper", parent="base_link", joint=tw.Revolute("y"), inertia=rod)
-builder.link("tool", parent="upper", joint=tw.Revolute("x"), placement=tw.SE3(np.eye(3), [0, 0, -1]))
+builder.link("tool", parent="upper", joint=tw.Revolute("x"), placement=end)
 bare = builder.build()
 assert np.linalg.matrix_rank(tw.crba(bare, [0.1, 0.2])) == 1
 try:
@@ -272,13 +303,12 @@ else:
 # %%
 tw.ask("49.8-chain", ...)
 # %% [markdown] lang="en"
-# Each joint climbs to the base, so the cost is $O(N \cdot \mathrm{depth})$. Both are right
-# for some robot. Instead of measuring times, we count how many lines that set a term are
-# executed. Three kinds of tree: a chain, legs of three links, and a bush, where the base carries every link.
+# Each joint climbs to the base, so the cost is $O(N \cdot \mathrm{depth})$: both are right for some robot. We count the
+# lines that are executed, for a chain, for legs of three links, and for a bush, where the base carries every link.
 # %% [markdown] lang="zh"
-# 每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$:对某种机器人来说,两种说法都对。这里不计时,而是统计一共执行了多少行赋值。三种树:链、每条腿三个连杆的多腿机器人,
-# 以及所有连杆都直接挂在基座上的灌木。
-# %%
+# 每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$:对某种机器人来说,两种说法都对。我们数一数执行的行数:链、每条腿三个连杆的多腿机器人,
+# 以及所有连杆都直接挂在基座上的“灌木”。
+# %% setup="yes"
 carriers = {
     "chain": lambda k: k - 1,
     "legs of three": lambda k: k - 1 if k % 3 else -1,
@@ -291,7 +321,7 @@ def grow(carrier, n):
     builder = tw.Builder("tree")
     for k in range(n):
         parent = "base_link" if carrier(k) < 0 else f"link_{carrier(k)}"
-        builder.link(f"link_{k}", parent=parent, joint=tw.Revolute("y"), inertia=rod, placement=link[2])
+        builder.link(f"link_{k}", parent=parent, joint=tw.Revolute("y"), inertia=rod, placement=end)
     return builder.build()
 
 

@@ -23,6 +23,7 @@ import numpy as np
 
 from twistwrench import plot
 
+np.set_printoptions(precision=3, suppress=True)
 rng, rest = np.random.default_rng(9), np.zeros(model.nv)
 weight = model.mass * 9.81
 feet = np.array([tw.frame_placement(model, q, foot).translation for foot in model.feet])
@@ -34,14 +35,33 @@ print({"M": d.M.shape, "h": d.h.shape, "S": S.shape, "J_c": d.J_c.shape})
 # %% [markdown] lang="en"
 # ## What stands where
 #
-# Eighteen rows: six for the base, three for each leg. The
-# columns of $J_c^T$ are the forces at the four feet, three components each. (The chapter writes $\dot q$ for what the
-# code calls `v`: eighteen numbers. The derivative of `q` would have nineteen.) $J_c\dot q$ is the velocity of the feet.
+# Eighteen rows: six for the base, three for each leg. (The chapter writes $\dot q$ for what the code calls `v`: eighteen
+# numbers.) **$J_c\dot q$ is the velocity of the feet**, three numbers for each;
+# so the columns of $J_c^T$ are what a force at a foot does to the eighteen rows (equal power, 49.4). Go2 walks, turns left,
+# and swings its left front leg and its right rear one:
 # %% [markdown] lang="zh"
 # ## 各个量的位置
 #
-# 十八行:基座六行,每条腿三行。$J_c^T$ 的列对应四只脚的力,每只脚三个分量。
-# (本章写的 $\dot q$ 就是代码里的 `v`,有十八个数;`q` 真正的导数有十九个数。)$J_c\dot q$ 是各只脚的速度。
+# 十八行:基座六行,每条腿三行。(本章写的 $\dot q$ 就是代码里的 `v`,有十八个数。)
+# **$J_c\dot q$ 就是各只脚的速度**,每只脚三个数;所以 $J_c^T$ 的列就是脚上的力对十八行的作用(功率相等,49.4)。
+# Go2 前行、左转,摆动左前腿和右后腿:
+# %%
+walking = rest.copy()
+walking[2], walking[3] = 0.6, 0.8  # rad/s, m/s
+walking[[7, 16]], walking[[8, 17]] = -5.0, 4.0  # thighs and calves
+foot_velocity = (d.J_c @ walking).reshape(4, 3)
+print(foot_velocity)
+# %%
+figure = plt.figure(figsize=(7, 4.6), layout="constrained")
+ax = plot.robot(model, q, com=False, ax=figure.add_subplot(projection="3d"))
+speeds = [f"{np.linalg.norm(velocity):.1f} m/s" for velocity in foot_velocity]
+blue = plot.COLOURS["blue"]
+plot.arrows(feet, foot_velocity, scale=0.1, colour=blue, label="J_c q̇, velocity of the foot", texts=speeds, ax=ax)
+ax.legend(loc="upper left", fontsize=8)
+plt.show()
+for name, velocity in zip(model.feet, foot_velocity):
+    later = tw.frame_placement(model, model.integrate(q, 1e-100j * walking), name).translation
+    assert np.allclose(later.imag / 1e-100, velocity, atol=1e-12)
 # %% [markdown] lang="en"
 # **Exercise 49.9.2.** Write $S^T\tau$ without any matrix; $S$ itself is the other half of the exercise, in your folder.
 # %% [markdown] lang="zh"
@@ -76,16 +96,14 @@ assert np.array_equal(np.abs(d.J_c.T[3:6]) > 0.5, np.tile(np.eye(3, dtype=bool),
 # %% [markdown] lang="en"
 # ## It holds in every state
 #
-# Posture, velocity, torques and foot forces drawn at random. Forward dynamics does not use $J_c$: it gets each foot
-# force as a wrench on the calf, in the calf's frame. With the acceleration that it returns, both sides of the
-# equation agree. (The feet slide and fly in such a state. That a foot stays where it is would be one more equation,
+# Everything is drawn at random. `aba` does not use $J_c$: it gets each foot force as a wrench on the calf. With the
+# acceleration that it returns, both sides agree. (The feet slide and fly. That they stay would be one more equation,
 # $J_c\ddot q + \dot J_c\dot q = 0$.)
 # %% [markdown] lang="zh"
 # ## 在任何状态下都成立
 #
-# 位形、速度、力矩和足端力都随机抽取。正向动力学不知道 $J_c$:每个足端力都作为小腿坐标系里对小腿的 wrench 交给它。
-# 它算出加速度,代回去两边相等。(在这样的状态里脚会滑动、会腾空。要求脚不动,那是另一个方程
-# $J_c\ddot q + \dot J_c\dot q = 0$。)
+# 所有的量都随机抽取。`aba` 不知道 $J_c$:每个足端力都作为对小腿的 wrench 交给它。
+# 它算出加速度,代回去两边相等。(脚会滑动、会腾空。要求脚不动,那是另一个方程 $J_c\ddot q + \dot J_c\dot q = 0$。)
 # %%
 some_q = model.random_configuration(rng=rng)
 some_v, some_tau, some_forces = rng.standard_normal(18), rng.standard_normal(12), 20 * rng.standard_normal((4, 3))
@@ -113,8 +131,10 @@ assert np.abs(left - right).max() < 1e-12 * np.abs(right).max()
 # $$M_{bb}\ddot q_b + M_{bj}\ddot q_j + h_b = J_{c,b}^T\lambda, \qquad
 # M_{jb}\ddot q_b + M_{jj}\ddot q_j + h_j = \tau + J_{c,j}^T\lambda.$$
 #
-# The first has no $\tau$: the robot is **underactuated**. The chapter concludes that contact forces alone decide how the
-# base moves. Do you agree?
+# The first has no $\tau$: the robot is **underactuated**. Where did the motors go? Cut a standing Go2 free at the hips: the
+# trunk feels its weight and what the legs transmit, the motors' torques among it. Cut it free at the feet: what bodies do
+# to each other cancels, motors included; only the ground and the weight are left. That is Newton and Euler for the whole
+# robot, written at the base: the base's rows.
 # %% [markdown] lang="zh"
 # ## 基座行
 #
@@ -123,7 +143,49 @@ assert np.abs(left - right).max() < 1e-12 * np.abs(right).max()
 # $$M_{bb}\ddot q_b + M_{bj}\ddot q_j + h_b = J_{c,b}^T\lambda, \qquad
 # M_{jb}\ddot q_b + M_{jj}\ddot q_j + h_j = \tau + J_{c,j}^T\lambda.$$
 #
-# 第一式里没有 $\tau$:机器人是**欠驱动**的。本章由此说基座的运动完全由接触力决定。你同意吗?
+# 第一式里没有 $\tau$:机器人是**欠驱动**的。电机到哪里去了?把站立的 Go2 在髋处切开:躯干受到自己的重力和四条腿传来的力,
+# 电机的力矩也在其中。在脚处切开:一个刚体对另一个的作用互相抵消,电机也在内,只剩地面和重力。这就是基座行:
+# 整个机器人的牛顿和欧拉方程,写在基座处。
+# %%
+ground = tw.static_equilibrium(model, q).forces
+through = tw.joint_wrenches(model, q, rest, rest, f_ext=wrenches(q, ground))
+hips = [i for i in range(2, model.nbodies) if model.parent[i] == 1]
+# %%
+placement = tw.forward_kinematics(model, q).placement
+at_hips = np.array([placement[i].translation for i in hips])
+on_trunk = -np.array([placement[i].rotation @ through[i].reshape(2, 3).T for i in hips])  # by each leg: (τ, f)
+moments, forces = on_trunk[..., 0], on_trunk[..., 1]
+middle, own_weight = placement[1].act(model.inertia[1].com), model.inertia[1].mass * model.gravity
+red, purple = plot.COLOURS["vermilion"], plot.COLOURS["purple"]
+newtons = [f"{force[2]:.1f} N" for force in forces]
+newton_metres = [f"{np.linalg.norm(moment):.1f} N m" for moment in moments]
+
+figure = plt.figure(figsize=(12, 5), layout="constrained")
+trunk, whole = (figure.add_subplot(1, 2, k, projection="3d") for k in (1, 2))
+trunk.plot(*at_hips[[0, 1, 3, 2, 0]].T, color=plot.COLOURS["grey"], linewidth=4)
+plot.arrows(at_hips, forces, scale=0.004, colour=red, label="force of a leg", texts=newtons, ax=trunk)
+of_leg = "moment of a leg, its motor's among it"
+plot.arrows(at_hips, moments, scale=0.03, colour=purple, label=of_leg, texts=newton_metres, ax=trunk)
+plot.arrows(middle, own_weight, scale=0.004 / 3, colour=blue, label="weight, a third as long", ax=trunk)
+trunk.set_title("cut at the hips: the trunk\nI a + V ×* I V = weight + Σ (τ, f) of the legs")
+plot.robot(model, q, com=False, ax=whole)
+plot.arrows(feet, ground, scale=0.004, colour=red, label="λ, force of the ground", ax=whole)
+plot.arrows(tw.center_of_mass(model, q), model.mass * model.gravity, scale=0.004 / 3, colour=blue, ax=whole)
+whole.set_title("cut at the feet: the base's rows\nM_bb q̈_b + M_bj q̈_j + h_b = J_c,bᵀ λ")
+for ax in (trunk, whole):
+    ax.set(xlim=(-0.3, 0.3), ylim=(-0.2, 0.2), zlim=(0, 0.4), box_aspect=(0.6, 0.4, 0.4), yticks=[-0.2, 0, 0.2])
+    ax.set(xticks=[-0.2, 0, 0.2], zticks=[0, 0.2, 0.4])
+trunk.legend(loc="upper left", fontsize=8)
+plt.show()
+balance = np.cross(at_hips - middle, forces).sum(axis=0) + moments.sum(axis=0)
+assert np.allclose(forces.sum(axis=0) + own_weight, 0, atol=1e-10)  # Newton, for the trunk
+assert np.allclose(balance, 0, atol=1e-10)  # Euler
+assert np.abs(moments[:, 0]).min() > 1  # N m: the motors of the hips
+assert np.allclose(d.J_c[:, :6].T @ ground.ravel(), d.h[:6], rtol=1e-12, atol=1e-10)  # for the whole robot
+# %% [markdown] lang="en"
+# The chapter concludes that contact forces alone decide how the base moves. Do you agree?
+# %% [markdown] lang="zh"
+# 本章由此说基座的运动完全由接触力决定。你同意吗?
 # %%
 tw.ask("49.9-kick", ...)
 
@@ -243,9 +305,8 @@ plt.show()
 # %% [markdown] lang="en"
 # ## Many ways to stand
 #
-# Twelve unknowns, six equations: the forces at the feet have a six-dimensional family of changes that the base does not
-# notice, the null space of $J_{c,b}^T$. Two of them: pull the feet towards each other, or shift load from one diagonal
-# to the other.
+# Twelve unknowns, six equations: six kinds of change in the forces that the base does not notice, the null space of
+# $J_{c,b}^T$. Two of them: pull the feet towards each other, or shift load from one diagonal to the other.
 # %% [markdown] lang="zh"
 # ## 站立的方式不止一种
 #
@@ -313,11 +374,12 @@ assert np.isclose(shift[standing].max(), vertical[60].min(), atol=1)  # until th
 # %% [markdown] lang="en"
 # ## A push
 #
-# Somebody pushes the trunk to the left with up to 100 N, and the robot is to stay at rest.
+# Somebody pushes the trunk to the left with up to 100 N, and the robot is to stay at rest. (On the site you are the one who
+# pushes: [Four feet under a push](../hands/feet.md).)
 # %% [markdown] lang="zh"
 # ## 推一下
 #
-# 有人向左推躯干,最大 100 N,而机器人要保持静止。
+# 有人向左推躯干,最大 100 N,而机器人要保持静止。(在本站上可以自己动手推:[四只脚与一次推力](../hands/feet.md)。)
 # %%
 tips = tw.ask("49.9-tipping", ...)
 tips
@@ -371,71 +433,8 @@ plt.show()
 # %% [markdown] lang="en"
 # Beyond the dotted line, the centre of pressure would have to lie outside the polygon, which is impossible with forces that only
 # push. So the robot must move, or it tips over.
-#
-# ## Straight knees
-#
-# The chapter warns that a straight knee makes $J_c$ lose rank. It does make the leg's own 3 × 3 Jacobian singular: the
-# foot can no longer move along the leg. We stretch all four legs.
 # %% [markdown] lang="zh"
 # 超过虚线处的推力,压力中心就得跑到多边形外面。只能推的足端力做不到这一点:机器人要么移动,要么翻倒。
-#
-# ## 伸直的膝
-#
-# 本章警告说,膝伸直会使 $J_c$ 降秩。单条腿自己的 3 × 3 雅可比矩阵确实会奇异:脚再也不能沿腿的方向移动。我们把四条腿一起伸直。
-# %%
-tw.ask("49.9-stretch", ...)
-# %% [markdown] lang="en"
-# The smallest singular value of a leg's own Jacobian, and that of $J_c$, which has the base's columns as well:
-# %% [markdown] lang="zh"
-# 单条腿的雅可比矩阵的最小奇异值,与 $J_c$(还含有基座的列)的最小奇异值:
-# %%
-bend = np.linspace(1.8, 0, 46)
-stretched = np.tile(q, (46, 1))
-stretched[:, 8::3], stretched[:, 9::3] = bend[:, None] / 2, -bend[:, None]  # thighs and calves
-J_c = tw.contact_jacobian(model, stretched, model.feet)
-of_leg = np.linalg.svd(J_c[:, :3, 6:9])[1].min(axis=-1)
-of_all = np.linalg.svd(J_c)[1].min(axis=-1)
-assert of_leg[-1] < 1e-12
-assert of_all.min() > 0.05
-assert np.linalg.matrix_rank(J_c[-1]) == 12
-
-ax = plot.axes_2d(size=(6, 3.2))
-ax.semilogy(np.rad2deg(bend[:-1]), of_leg[:-1], color=plot.COLOURS["vermilion"], label="one leg by itself")
-ax.semilogy(np.rad2deg(bend), of_all, color=plot.COLOURS["blue"], label="J_c: four feet and a free base")
-ax.set(xlabel="bend of the knees [°]", ylabel="smallest singular value", title="stretching the legs", ylim=(1e-3, 1))
-ax.invert_xaxis()
-ax.legend()
-plt.show()
-# %% [markdown] lang="en"
-# The six columns of the base compensate for the direction that each leg has lost, as long as these four directions do
-# not depend on each other. Here they do not: the hips of Go2 are 95.5 mm wide, so with the hip joints at 0 the legs
-# lean outward. Turn each hip until the foot is right below it.
-# %% [markdown] lang="zh"
-# 每条腿失去一个方向,基座的六列可以补上,只要这四个方向彼此不相关。这里正是如此:Go2 的髋宽 95.5 mm,髋关节为 0 时腿向外斜。
-# 再转动髋关节,让每只脚都在髋的正下方。
-# %%
-tw.ask("49.9-upright", ...)
-# %% [markdown] lang="en"
-# Now the four legs are parallel, and the rank falls: no motion of the robot can change the length of one leg alone, and the share of the load on each of the four
-# parallel legs is not determined.
-# %% [markdown] lang="zh"
-# 这时四条腿平行,秩会下降:任何运动都不能只改变一条腿的长度,
-# 四根直立的柱子怎样分担重量也就无法确定。
-# %%
-upright = stretched[-1].copy()
-upright[7::3] = np.array([-1, 1, -1, 1]) * np.arctan2(0.0955, 0.426)  # hips, rad: width and length of a leg
-of_upright = np.linalg.svd(tw.contact_jacobian(model, upright, model.feet))[1]
-print(f"smallest singular value {of_upright.min():.1e}, the next {of_upright[-2]:.2f}")
-assert of_upright.min() < 1e-12 < 1e-2 < of_upright[-2]
-# %% [markdown] lang="en"
-# Redundant contacts also reduce the rank.
-# %% [markdown] lang="zh"
-# 多余的接触也会使秩下降。
-# %%
-tw.ask("49.9-calf", ...)
-# %%
-twice = tw.contact_jacobian(model, q, ["FL_foot", "FL_calf"])
-assert np.linalg.matrix_rank(twice) == 5
 # %% [markdown] lang="en"
 # ## Pinocchio
 #
@@ -461,6 +460,66 @@ else:
     theirs = pin.computeGeneralizedGravity(pin_model, data, q)
     assert np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - g).max() < 1e-12 * weight
     print("the same J_c, and the same g")
+# %% [markdown] lang="en"
+# ## For engineers: the rank of $J_c$
+#
+# The chapter warns that a straight knee makes $J_c$ lose rank. It does make the leg's own 3 × 3 Jacobian singular: the
+# foot can no longer move along the leg. We stretch all four legs.
+# %% [markdown] lang="zh"
+# ## 给工程师:$J_c$ 的秩
+#
+# 本章警告说,膝伸直会使 $J_c$ 降秩。单条腿自己的 3 × 3 雅可比矩阵确实会奇异:脚再也不能沿腿的方向移动。我们把四条腿一起伸直。
+# %%
+tw.ask("49.9-stretch", ...)
+# %% [markdown] lang="en"
+# The smallest singular value of a leg's own Jacobian, and that of $J_c$, which has the base's columns as well. They
+# compensate for what each leg has lost, as long as the four directions do not depend on each other:
+# %% [markdown] lang="zh"
+# 单条腿的雅可比矩阵的最小奇异值,与 $J_c$ 的最小奇异值。$J_c$ 还含有基座的列,只要四条腿失去的方向彼此不相关,它们就能补上:
+# %%
+bend = np.linspace(1.8, 0, 46)
+stretched = np.tile(q, (46, 1))
+stretched[:, 8::3], stretched[:, 9::3] = bend[:, None] / 2, -bend[:, None]  # thighs and calves
+J_c = tw.contact_jacobian(model, stretched, model.feet)
+of_leg = np.linalg.svd(J_c[:, :3, 6:9])[1].min(axis=-1)
+of_all = np.linalg.svd(J_c)[1].min(axis=-1)
+assert of_leg[-1] < 1e-12
+assert of_all.min() > 0.05
+assert np.linalg.matrix_rank(J_c[-1]) == 12
+
+ax = plot.axes_2d(size=(6, 3.2))
+ax.semilogy(np.rad2deg(bend[:-1]), of_leg[:-1], color=plot.COLOURS["vermilion"], label="one leg by itself")
+ax.semilogy(np.rad2deg(bend), of_all, color=plot.COLOURS["blue"], label="J_c: four feet and a free base")
+ax.set(xlabel="bend of the knees [°]", ylabel="smallest singular value", title="stretching the legs", ylim=(1e-3, 1))
+ax.invert_xaxis()
+ax.legend()
+plt.show()
+# %% [markdown] lang="en"
+# Go2's hips are 95.5 mm wide, so with the hip joints at 0 the legs lean outward. Turn each hip until the foot is right
+# below it.
+# %% [markdown] lang="zh"
+# Go2 的髋宽 95.5 mm,髋关节为 0 时腿向外斜。再转动髋关节,让每只脚都在髋的正下方。
+# %%
+tw.ask("49.9-upright", ...)
+# %% [markdown] lang="en"
+# No motion can change the length of one of four parallel legs alone, so how they share the load is not determined.
+# %% [markdown] lang="zh"
+# 四条腿平行时,任何运动都不能只改变一条腿的长度,它们怎样分担重量也就无法确定。
+# %%
+upright = stretched[-1].copy()
+upright[7::3] = np.array([-1, 1, -1, 1]) * np.arctan2(0.0955, 0.426)  # hips, rad: width and length of a leg
+of_upright = np.linalg.svd(tw.contact_jacobian(model, upright, model.feet))[1]
+print(f"smallest singular value {of_upright.min():.1e}, the next {of_upright[-2]:.2f}")
+assert of_upright.min() < 1e-12 < 1e-2 < of_upright[-2]
+# %% [markdown] lang="en"
+# And contacts on the same link?
+# %% [markdown] lang="zh"
+# 同一根连杆上有两处接触呢?
+# %%
+tw.ask("49.9-calf", ...)
+# %%
+twice = tw.contact_jacobian(model, q, ["FL_foot", "FL_calf"])
+assert np.linalg.matrix_rank(twice) == 5
 # %% [markdown] lang="en"
 # ## Exercises
 #

@@ -50,6 +50,36 @@ h_G = sum(to_G[i] @ model.inertia[i].momentum(motion.twist[i]) for i in bodies)
 print("k_G", h_G[:3].round(4), "kg m²/s   l_G", h_G[3:].round(3), "kg m/s")
 assert np.allclose(h_G, tw.centroidal_momentum(model, q, v), rtol=1e-12)
 # %% [markdown] lang="en"
+# Here it is on a running Go2, from the side. Blue: the linear momentum of each body at its own centre of mass. At $G$: their
+# sum $l_G$; and $k_G$, the turning of all of them about $G$.
+# %% [markdown] lang="zh"
+# 画在奔跑的 Go2 上,从侧面看。蓝色:每个刚体在自己质心处的线动量。在 $G$ 处:它们的和 $l_G$,以及 $k_G$,即所有刚体绕 $G$ 的转动。
+# %%
+run_q, run_v = move(0.09, [*GAITS.values()][-1])
+run = tw.forward_kinematics(model, run_q, run_v)
+h_run, G = tw.centroidal_momentum(model, run_q, run_v), tw.center_of_mass(model, run_q)
+# %%
+figure, ax = plt.subplots(figsize=(8, 4.2), layout="constrained")
+plot.side_view(model, run_q, ax=ax)
+side = [0, 2]
+for T, body, twist in list(zip(run.placement, model.inertia, run.twist))[1:]:
+    middle, momentum = T.act(body.com), T.rotation @ body.momentum(twist)[3:]
+    tip = middle[side] + 0.02 * momentum[side]
+    ax.annotate("", tip, middle[side], arrowprops={"arrowstyle": "-|>", "color": plot.COLOURS["blue"], "lw": 1.5})
+red, purple = plot.COLOURS["vermilion"], plot.COLOURS["purple"]
+thick = {"arrowstyle": "-|>", "color": red, "lw": 3, "shrinkA": 0}
+ax.annotate("", G[side] + 0.02 * h_run[[3, 5]], G[side], arrowprops=thick)
+ax.annotate("l_G", G[side] + 0.02 * h_run[[3, 5]], (4, 4), textcoords="offset points", color=red, fontsize=12)
+turn = np.linspace(2.4, -2.4, 60) * np.sign(h_run[1])  # against y: a positive k_y turns clockwise
+circle = G[side] + 0.1 * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+ax.plot(*circle.T, color=purple, linewidth=3)
+ax.set(xlim=(-0.35, 0.85), ylim=(0.05, 0.44))
+ax.annotate("", circle[-1], circle[-4], arrowprops={"arrowstyle": "-|>", "color": purple, "lw": 3})
+ax.annotate("k_G", circle[8], (-8, 6), textcoords="offset points", color=purple, fontsize=12)
+plt.show()
+parts = [T.rotation @ body.momentum(V)[3:] for T, body, V in zip(run.placement, model.inertia, run.twist)]
+assert np.allclose(sum(parts[1:]), h_run[3:], rtol=1e-12)
+# %% [markdown] lang="en"
 # ## The matrix $A_G$, in two ways
 #
 # $h_G$ is linear in the velocity: $h_G = A_G\dot q$. With $V_i = J_i \dot q$ the sum above gives
@@ -225,13 +255,12 @@ assert np.allclose(held.forces.sum(axis=0) + model.mass * model.gravity, 0, rtol
 # ## Three gaits
 #
 # Now Go2 moves. The joints follow smooth curves: each leg sways, and its knee bends while it swings forward. The trunk
-# bobs, and in the bound it pitches. `move` has the formulas of position and velocity; `acceleration` is the complex-step
-# derivative of the velocity. The motion is prescribed, and we compute the forces from outside that it needs.
+# bobs, and in the bound it pitches. The motion is prescribed; we compute what it needs from outside.
 # %% [markdown] lang="zh"
 # ## 三种步态
 #
 # 现在让 Go2 动起来。关节走光滑的曲线:每条腿前后摆动,向前摆时弯膝;躯干上下起伏,跳跑(bound)时还会俯仰。
-# `move` 是位置和速度的公式,`acceleration` 是速度的复数步长导数。运动是给定的,我们要问的是:外界得为此做些什么。
+# 运动是给定的,我们要问的是:外界得为此做些什么。
 # %%
 gaits = dict(zip(("slow walk", "trot", "bound"), GAITS.values()))
 for gait in gaits.values():  # v is the rate of q: see it at a foot
@@ -253,13 +282,12 @@ plt.show()
 # %% [markdown] lang="en"
 # ## $h_G$ over a stride
 #
-# In a trot and in a bound, the trunk rises twice in each stride, as $l_z$ shows. The forward speed is nearly constant,
-# and only its deviation from the mean is drawn. (Note the scales of $k_G$: each gait has its own. Your guess is grey.)
+# In a trot and in a bound, the trunk rises twice in each stride, as $l_z$ shows; in this slow walk $l_G$ keeps its mean, and
+# is not drawn. (Note the scales of $k_G$: each gait has its own. Your guess is grey.)
 # %% [markdown] lang="zh"
 # ## 一个步态周期里的 $h_G$
 #
-# 小跑和跳跑每个周期把躯干抬起两次:见 $l_z$。前进速度几乎不变,图中只画它围绕平均值的波动。(注意 $k_G$ 的刻度:每种步态各不相同。
-# 你猜的那一列是灰色的。)
+# 小跑和跳跑每个周期把躯干抬起两次:见 $l_z$;这里的慢走 $l_G$ 保持平均值,没有画。(注意 $k_G$ 的刻度:每种步态各不相同。你猜的那一列是灰色的。)
 # %%
 largest_k_y = tw.ask("49.10-gait", ...)
 largest_k_y
@@ -270,21 +298,21 @@ for name, gait in gaits.items():
     strides[name] = t, tw.centroidal_momentum(model, *move(t, gait))
 
 figure, axes = plt.subplots(2, 3, figsize=(12, 5), sharex=True, layout="constrained")
-for (name, gait), column in zip(gaits.items(), axes.T):
+for (name, gait), (upper, lower) in zip(gaits.items(), axes.T):
     t, momentum = strides[name]
     wobble = momentum - momentum[:-1].mean(axis=0)
     if largest_k_y.letter == "abc"[list(gaits).index(name)]:
-        column[0].set_facecolor("0.92")
+        upper.set_facecolor("0.92")
     for k in range(3):
-        column[0].plot(t * gait.strides, momentum[:, k], color=plot.XYZ[k], label=f"k_{'xyz'[k]}")
-        column[1].plot(t * gait.strides, wobble[:, 3 + k], color=plot.XYZ[k], label=f"l_{'xyz'[k]}")
-    column[0].set_title(f"{name}: k up to {np.abs(momentum[:, :3]).max():.3f} kg m²/s")
-    column[1].set_ylim(-5.5, 5.5)
-    column[1].set_xlabel("part of the stride")
-axes[0, 0].set_ylabel("k_G [kg m²/s]")
-axes[1, 0].set_ylabel("l_G, less its mean [kg m/s]")
-axes[0, 2].legend(fontsize=8, loc="lower left")
-axes[1, 0].legend(fontsize=8, loc="upper left")
+        upper.plot(t * gait.strides, momentum[:, k], color=plot.XYZ[k], label="xyz"[k])
+        lower.plot(t * gait.strides, wobble[:, 3 + k], color=plot.XYZ[k])
+    upper.set_title(f"{name}: k up to {np.abs(momentum[:, :3]).max():.3f} kg m²/s")
+    lower.set(ylim=(-5.5, 5.5), xlabel="part of the stride")
+axes[1, 0].remove()  # in the slow walk l_G keeps its mean
+axes[0, 0].tick_params(labelbottom=True)
+axes[0, 0].set(xlabel="part of the stride", ylabel="k_G [kg m²/s]")
+axes[1, 1].set_ylabel("l_G, less its mean [kg m/s]")
+figure.legend(*axes[0, 0].get_legend_handles_labels(), loc=(0.15, 0.18))
 plt.show()
 
 largest = {name: np.abs(momentum[:, 1]).max() for name, (_, momentum) in strides.items()}
@@ -447,17 +475,16 @@ plt.show()
 # %% [markdown] lang="en"
 # ## LIPM and SRBM
 #
-# We also measure two further assumptions. The LIPM keeps the height constant, because otherwise it is not linear: with
-# $\ddot z \ne 0$ the force along the leg is scaled by $1 + \ddot z/g$. The single rigid body (SRBM) keeps six
-# equations, but its momentum is that of a body that turns with the trunk, $k_G \approx \bar I \omega$, with the inertia
-# of the standing robot. The contribution of the swinging legs is missing. The bars divide the moment left out by the
-# load at the same instant: the shift of the centre of pressure, with your guess for the trot beside it.
+# The LIPM keeps the height constant as well, because otherwise it is not linear: with $\ddot z \ne 0$ the force along the
+# leg is scaled by $1 + \ddot z/g$. The single rigid body (SRBM) keeps six equations, but its momentum is that of a body
+# that turns with the trunk, $k_G \approx \bar I \omega$: the swinging legs are missing. The bars divide the moment left
+# out by the load at the same instant, with your guess for the trot beside it.
 # %% [markdown] lang="zh"
 # ## LIPM 与 SRBM
 #
-# 还有两个假设值得用数字看一看。LIPM 还假设高度不变,否则它就不是线性的:$\ddot z \ne 0$ 时,沿腿的力要乘以 $1 + \ddot z/g$。
-# 单刚体模型(SRBM)保留了六个方程,但它的动量是随躯干转动的一个刚体的动量,$k_G \approx \bar I \omega$,惯量取站立时的值。
-# 摆动的腿所贡献的部分就没有了。图中的柱高是漏掉的力矩除以同一时刻的法向力,即压力中心的偏移;你对小跑的猜测画在旁边。
+# LIPM 还假设高度不变,否则它就不是线性的:$\ddot z \ne 0$ 时,沿腿的力要乘以 $1 + \ddot z/g$。
+# 单刚体模型(SRBM)保留了六个方程,但它的动量是随躯干转动的一个刚体的动量,$k_G \approx \bar I \omega$,没有摆动的腿的贡献。
+# 图中的柱高是漏掉的力矩除以同一时刻的法向力;你对小跑的猜测画在旁边。
 # %%
 tw.ask("49.10-rigid", ...)
 # %%
@@ -507,12 +534,12 @@ assert max(loads["trot"][0], loads["bound"][0]) < 0.1  # nearly in free fall twi
 # ## Pinocchio
 #
 # `data.Ag` and `data.hg` have the linear rows first. `computeCentroidalMomentumTimeVariation` returns all of $\dot h_G$,
-# not $\dot A_G\dot q$ alone.
+# not $\dot A_G\dot q$ alone. For numbers of your own, on the site: [Translate my numbers](../hands/translate.md).
 # %% [markdown] lang="zh"
 # ## 与 Pinocchio 对照
 #
 # `data.Ag` 和 `data.hg` 的线动量行在前。`computeCentroidalMomentumTimeVariation` 返回的是整个 $\dot h_G$,
-# 不只是 $\dot A_G\dot q$。
+# 不只是 $\dot A_G\dot q$。要换算自己的数,可以用本站的[换算我的数](../hands/translate.md)。
 # %%
 try:
     import pinocchio as pin
