@@ -23,6 +23,7 @@ from .algorithms.delassus import delassus_matrix, operational_space_inertia
 from .algorithms.energy import kinetic_energy, potential_energy
 from .algorithms.factorization import ltdl, ltl, solve_mass_matrix
 from .algorithms.floating_base import Equilibrium, contact_jacobian, selection_matrix, static_equilibrium
+from .algorithms.frame_wrench import frame_wrench
 from .algorithms.inverse_mass import inverse_mass_matrix
 from .algorithms.kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
 from .algorithms.mimic import MimicModel
@@ -190,6 +191,7 @@ __all__ = [
     "frame_bias_acceleration",
     "frame_jacobian",
     "frame_placement",
+    "frame_wrench",
     "friction_inverse_dynamics",
     "from_dh",
     "from_screw_axes",
