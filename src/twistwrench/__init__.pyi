@@ -68,6 +68,7 @@ from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularEr
 from .exercises.asking import ask
 from .fast.compilation import compile
 from .fast.program import Program
+from .identification import BaseParameters, base_parameters
 from .loading import load, robots
 from .model.builder import Builder
 from .model.editing import attach, replace_inertia
@@ -98,6 +99,7 @@ __all__ = [
     "SE3",
     "Accuracy",
     "Advice",
+    "BaseParameters",
     "Baumgarte",
     "Builder",
     "Contact",
@@ -155,6 +157,7 @@ __all__ = [
     "articulated_inertia",
     "ask",
     "attach",
+    "base_parameters",
     "bridge",
     "center_of_mass",
     "center_of_mass_acceleration",
