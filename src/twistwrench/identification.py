@@ -115,9 +115,9 @@ def base_parameters(model: Model) -> BaseParameters:
     lengths = np.linalg.norm(Y, axis=0)
     columns = Y / np.where(_felt(model, lengths), lengths, np.inf)
     basis, kept, share = np.zeros((len(Y), 0)), [], []
-    for k, column in enumerate(columns.T):
-        left = column - basis @ (basis.T @ column)
-        left = left - basis @ (basis.T @ left)  # twice: what rounding has left of the others
+    for k, column in enumerate(columns.mT):
+        left = column - basis @ (basis.mT @ column)
+        left = left - basis @ (basis.mT @ left)  # twice: what rounding has left of the others
         part = np.linalg.norm(left)
         if part > INDEPENDENT:
             kept.append(k)

@@ -139,7 +139,7 @@ class LoopClosure(_Internal):
         rows = np.eye(6)[self.rows]
         if self.axis is None:
             return readonly(rows)
-        across = normal_axes(self.axis)[:, :2].T
+        across = normal_axes(self.axis).mT[:2]
         return readonly(np.concatenate([across @ rows[:3], rows[3:]]))
 
     def row_rotation(self, rotation: Array) -> Array:
