@@ -23,6 +23,7 @@ from .algorithms.delassus import delassus_matrix, operational_space_inertia
 from .algorithms.energy import kinetic_energy, potential_energy
 from .algorithms.factorization import ltdl, ltl, solve_mass_matrix
 from .algorithms.floating_base import Equilibrium, contact_jacobian, selection_matrix, static_equilibrium
+from .algorithms.frame_wrench import frame_wrench
 from .algorithms.inverse_mass import inverse_mass_matrix
 from .algorithms.kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
 from .algorithms.mimic import MimicModel
@@ -67,6 +68,7 @@ from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularEr
 from .exercises.asking import ask
 from .fast.compilation import compile
 from .fast.program import Program
+from .identification import BaseParameters, base_parameters
 from .loading import load, robots
 from .model.builder import Builder
 from .model.editing import attach, replace_inertia
@@ -97,6 +99,7 @@ __all__ = [
     "SE3",
     "Accuracy",
     "Advice",
+    "BaseParameters",
     "Baumgarte",
     "Builder",
     "Contact",
@@ -154,6 +157,7 @@ __all__ = [
     "articulated_inertia",
     "ask",
     "attach",
+    "base_parameters",
     "bridge",
     "center_of_mass",
     "center_of_mass_acceleration",
@@ -190,6 +194,7 @@ __all__ = [
     "frame_bias_acceleration",
     "frame_jacobian",
     "frame_placement",
+    "frame_wrench",
     "friction_inverse_dynamics",
     "from_dh",
     "from_screw_axes",

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 from html import escape
 
 import numpy as np
@@ -10,11 +11,12 @@ from numpy.typing import ArrayLike
 
 from .algorithms._mimic import also_of_mimics
 from .algorithms.aba import aba
+from .algorithms.kinematics import forward_kinematics
 from .arrays import Array, resolution
 from .errors import SingularError
 from .model import Model, check_model, columns, composite_inertias, floats_of, tree_terms
 
-__all__ = ["Accuracy", "accuracy"]
+__all__ = ["Accuracy", "Loss", "accuracy"]
 
 SUMMED, DIVIDED = 24, 4
 """Safety factors on the bare formulas, of inverse and of forward dynamics. Less would do for the textbook; with these
@@ -35,6 +37,55 @@ MAX_NAMED_JOINTS = 4
 AMPLE_INERTIA_SHARE = 1e-3
 """A motion with more than this part of the apparent inertia of its joints is not worth a warning."""
 
+FREE_TERMS = 10
+"""The terms of M_jj may be so many times as large as their sum before they cost digits."""
+
+ILL_CONDITIONED = 1e8
+"""A condition number of M above this makes people look for the loss of digits."""
+
+NAMED_DIGITS, PART_DIGITS = 3, 1
+"""Causes are named where so many digits are lost in all; of these each that costs so many."""
+
+AS_DOUBLES = "q, v, tau = (np.asarray(x, float) for x in (q, v, tau))\n"
+NORMALIZED = "q = model.normalize(q)\n"
+IN_FLOAT64 = "qdd = tw.aba(model, q, v, tau)"
+IN_PAIRS = 'qdd = tw.compile(model, "aba", dtype="double-double")(q, v, tau).hi'
+IN_MPMATH = """mpmath.mp.dps = 80
+q, v, tau = (tw.newton_euler_3d.as_mpmath(x) for x in (q, v, tau))
+qdd = tw.newton_euler_3d.forward_dynamics(model, q, v, tau).astype(float)"""
+
+
+@dataclass(frozen=True)
+class Loss:
+    """Why digits are lost, and what to do: an entry of `Accuracy.losses` or `Accuracy.elsewhere`.
+
+    Attributes
+    ----------
+    cause : str
+        "weak motion", "dependent directions", "terms of M", "terms that cancel", "rounded tau", "no inertia"; elsewhere
+        "sums in the world", "v × m v", "condition of M", "matrix of a far body".
+    joints : tuple of str
+        Where.
+    digits : float
+        How many are lost; infinite where none is certain.
+    cure : str
+        What to do, as a sentence.
+    lines : str
+        Lines of Python that do it: with np, mpmath, tw, model, q, v and tau they leave the answer in ``qdd``. Empty
+        where no computation helps.
+    """
+
+    cause: str
+    joints: tuple[str, ...]
+    digits: float
+    cure: str
+    lines: str = ""
+
+    def __str__(self) -> str:
+        where = f" ({', '.join(self.joints[:MAX_NAMED_JOINTS])})" if self.joints else ""
+        lost = f"{self.digits:.0f} digits" if np.isfinite(self.digits) else "all digits"
+        return f"{self.cause}{where}, {lost}: {self.cure}"
+
 
 @dataclass(frozen=True)
 class Accuracy:
@@ -54,6 +105,11 @@ class Accuracy:
         The joints of that motion, the most moved first; in a batch that of its worst state.
     resolution : float
         Of the number type that was asked about: 2.2e-16 in float64.
+    losses : tuple of Loss
+        Where three digits of q̈ or more are lost: the causes, with the joints and what to do; in a batch those of its
+        worst state.
+    elsewhere : tuple of Loss
+        What costs nothing here, but three digits or more in other formulas and libraries, and what to do there.
     """
 
     rnea: Array
@@ -62,6 +118,8 @@ class Accuracy:
     apparent_inertia: Array
     weak: tuple[str, ...]
     resolution: float
+    losses: tuple[Loss, ...] = ()
+    elsewhere: tuple[Loss, ...] = ()
 
     @property
     def felt(self) -> Array:
@@ -82,16 +140,20 @@ class Accuracy:
         whole = int(-np.log10(self.resolution) + 0.5)
         sure = {name: f"{int(digits.min(initial=whole)) or 'none'}" for name, digits in self.digits.items()}
         kept = f"rnea keeps {sure['rnea']} of {whole} digits, aba {sure['aba']}, crba + solve {sure['crba_solve']}."
+        causes = [f"Lost by {loss}" for loss in self.losses]
+        others = [f"Elsewhere by {loss}" for loss in self.elsewhere]
+        return "\n".join([kept, *self._weak_motion(), *causes, *others])
+
+    def _weak_motion(self) -> list[str]:
+        """Return the sentence on a motion with little inertia, if there is one."""
         least = float(self.apparent_inertia.min(initial=1))
         if least > AMPLE_INERTIA_SHARE:
-            return kept
+            return []
         if len(self.weak) == 1:
-            return (
-                f"{kept}\nA motion of {self.weak[0]!r} has {least:.1e} of the apparent inertia of its parts one by one."
-            )
+            return [f"A motion of {self.weak[0]!r} has {least:.1e} of the apparent inertia of its parts one by one."]
         more = len(self.weak) - MAX_NAMED_JOINTS
         names = ", ".join(map(repr, self.weak[:MAX_NAMED_JOINTS])) + (f" and {more} more" if more > 0 else "")
-        return f"{kept}\nMoved against each other, {names} have {least:.1e} of their apparent inertias one by one."
+        return [f"Moved against each other, {names} have {least:.1e} of their apparent inertias one by one."]
 
 
 def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayLike | None = None) -> Accuracy:
@@ -111,7 +173,7 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     Returns
     -------
     Accuracy
-        Relative errors and the digits that are left. Print it for a sentence.
+        Relative errors, the digits that are left, why others are lost and what to do. Print it for sentences.
 
     Raises
     ------
@@ -127,6 +189,7 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     torques, `aba` loses as many digits as a solver, and more where a ball joint carries a thin rod: it eliminates three
     directions together, of which one has little inertia.
 
+    Where the terms of M_jj are much larger than their sum, as of a body far out on an oblique axis, they cost digits.
     The error of the bias forces is relative to their terms, lever times force. Where v is given, it is compared with q̈,
     so that terms which cancel cost digits.
 
@@ -140,6 +203,7 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     >>> print(tw.accuracy(model, np.full(6, 0.1)))
     rnea keeps 13 of 16 digits, aba 8, crba + solve 8.
     Moved against each other, 'rod_02', 'rod_03', 'rod_01' have ... of their apparent inertias one by one.
+    Lost by weak motion (rod_02, rod_03, rod_01), 6 digits: a program in double-double keeps all 16 ...
 
     A fan of an oblique axis turns at 10 000 rpm, and 0.1 mN m drive it:
 
@@ -148,21 +212,45 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     >>> fan.link("disc", parent="base_link", joint=tw.Revolute(n), inertia=disc)
     >>> print(tw.accuracy(fan.build(), [0.3], [1047.0], [1e-4]))
     rnea keeps 14 of 16 digits, aba 9, crba + solve 9.
+    Lost by terms that cancel (disc), 4 digits: a program in double-double keeps all 16 ...
     """
     given, rates, torques = _state(model, q, v, tau)
     eps = resolution(given.dtype)
     depth = max([1, *(len(model.support(i)) for i in range(model.nbodies))])
     at = model.normalize(_double(given))
-    scaled = _scaled_mass_matrix(model, at)
+    M = _mass_matrix(model, at)
+    scaled = _scaled(M)
     least, motion = _least_inertia(scaled)
     certain = least - model.nv * resolution(np.float64)  # as certain as the eigenvalue itself is
     sums = np.full(least.shape, SUMMED * eps * np.sqrt(depth))
     within = np.maximum(MIN_INDEPENDENCE / np.maximum(_least_of_joints(model, scaled), np.finfo(float).tiny), 1)
-    forward = sums + np.where(certain > 0, DIVIDED * eps * within / np.where(certain > 0, certain, 1), np.inf)
+    terms = _terms_of_mass(model, at, np.diagonal(M, axis1=-2, axis2=-1))
+    factor = within * np.maximum(terms.max(axis=-1, initial=1) / FREE_TERMS, 1)
+    forward = sums + np.where(certain > 0, DIVIDED * eps * factor / np.where(certain > 0, certain, 1), np.inf)
+    drives = None if torques is None else _double(torques)
+    cancelled = np.zeros(least.shape)
     if rates is not None:
-        drives = None if torques is None else _double(torques)
-        forward = forward + eps * _cancelled(model, at, _double(rates), drives, certain)
-    return Accuracy(sums, forward, forward.copy(), least, _most_moved(model, least, motion), eps)
+        cancelled = _cancelled(model, at, _double(rates), drives, certain)
+        forward = forward + eps * cancelled
+    known = Accuracy(sums, forward, forward.copy(), least, _most_moved(model, least, motion), eps)
+    if not forward.size or model.nv == 0:
+        return known
+    worst = np.unravel_index(int(np.argmax(forward)), forward.shape)
+    one = [None if x is None else np.broadcast_to(x, (*forward.shape, x.shape[-1]))[worst] for x in (at, rates, drives)]
+    state = _State(model, one[0], None if one[1] is None else _double(one[1]), one[2])  # type: ignore[arg-type]
+    tiny = np.finfo(float).tiny
+    parts = {
+        "weak motion": (1 / float(certain[worst]) if certain[worst] > 0 else np.inf, known.weak),
+        "dependent directions": (float(within[worst]), _dependent(model, scaled[worst])),
+        "terms of M": (float(terms[worst].max()) / FREE_TERMS, (_joint_at(model, int(terms[worst].argmax())),)),
+        "terms that cancel": (float(cancelled[worst]) * max(float(certain[worst]), tiny) / DIVIDED, state.cancelling()),
+    }
+    lost = float(np.log10(forward[worst] / ((SUMMED + DIVIDED) * eps)))
+    return replace(
+        known,
+        losses=_losses(state, M[worst], parts, lost, float(forward[worst]), eps),
+        elsewhere=_elsewhere(state, M[worst], float(least[worst])),
+    )
 
 
 def _state(
@@ -223,7 +311,7 @@ def _bias_terms(model: Model, q: Array, v: Array) -> Array:
         mc = np.linalg.norm(tree.I[i][:3, 3:])
         J = np.linalg.norm(tree.I[i][:3, :3])
         force.append(m * moving[i] + mc * turning[i] + w * (m * u + mc * w))
-        moment.append(J * turning[i] + mc * moving[i] + w * (J * w + mc * u) + u * (m * u + mc * w))
+        moment.append(J * turning[i] + mc * moving[i] + w * (J * w + 2 * mc * u))
     h = np.zeros((*tree.batch, model.nv))
     for i in tree.inward:
         p, S = tree.parent[i], tree.S[i]
@@ -261,9 +349,8 @@ def _mass_matrix(model: Model, q: Array) -> Array:
     return np.triu(M) + np.triu(M, 1).mT
 
 
-def _scaled_mass_matrix(model: Model, q: Array) -> Array:
+def _scaled(M: Array) -> Array:
     """Return D^-½ M D^-½: M in units in which each degree of freedom alone has the inertia 1."""
-    M = _mass_matrix(model, q)
     own = np.diagonal(M, axis1=-2, axis2=-1)
     unit = np.sqrt(np.where(own > 0, own, 1))  # a motion without inertia keeps its zero
     return np.asarray(M / unit[..., :, None] / unit[..., None, :])
@@ -288,3 +375,146 @@ def _most_moved(model: Model, least: Array, motion: Array) -> tuple[str, ...]:
     shares = [float((worst[s] ** 2).sum()) for s in model.v_slice]
     order = np.argsort(shares)[::-1]
     return tuple(model.joint_names[i] for i in order if shares[i] > MIN_ENERGY_SHARE)
+
+
+def _terms_of_mass(model: Model, q: Array, own: Array) -> Array:
+    """Return how many times as large the terms of M_jj are as their sum, shape (..., nv).
+
+    A body's mass, moment of mass and inertia are written about the origins of all frames on the way to the base, where
+    the terms may cancel. Their squares add up: roundings are independent.
+    """
+    tree = tree_terms(model, q)
+    IC = composite_inertias(tree)
+    sizes = [_sizes(I) for I in tree.I]
+    first, second = [x[1] for x in sizes], [x[2] for x in sizes]
+    ratio = np.ones((*tree.batch, model.nv))
+    for i in tree.inward:
+        p, S = tree.parent[i], tree.S[i]
+        mass, moment, _ = _sizes(IC[i])
+        turn, slide = np.linalg.norm(S[:3], axis=0), np.linalg.norm(S[3:], axis=0)
+        terms = turn**2 * second[i][..., None] + 2 * turn * slide * first[i][..., None] + slide**2 * mass[..., None]
+        at = model.v_slice[i]
+        ratio[..., at] = np.where(own[..., at] > 0, terms / np.where(own[..., at] > 0, own[..., at], 1), 1)
+        reach = _length(tree.placement[i].translation)
+        second[p] = _root(second[p], second[i], 2 * reach * first[i], 2 * reach * moment + mass * reach**2)
+        first[p] = _root(first[p], first[i], mass * reach)
+    return ratio
+
+
+def _sizes(I: Array) -> tuple[Array, Array, Array]:
+    """Return the mass, the size of the moment of mass, and the trace of the inertia of a 6 × 6 matrix."""
+    moment = np.linalg.norm(I[..., :3, 3:], axis=(-2, -1)) / np.sqrt(2)
+    return I[..., 5, 5], np.asarray(moment), np.trace(I[..., :3, :3], axis1=-2, axis2=-1)
+
+
+def _root(*terms: Array) -> Array:
+    """Return the root of a sum of squares that cannot overflow."""
+    total = terms[0]
+    for term in terms[1:]:
+        total = np.hypot(total, term)
+    return np.asarray(total)
+
+
+def _joint_at(model: Model, k: int) -> str:
+    """Return the name of the joint that entry k of v belongs to."""
+    return next(name for name, s in zip(model.joint_names, model.v_slice) if s.start <= k < s.stop)
+
+
+def _dependent(model: Model, scaled: Array) -> tuple[str, ...]:
+    """Return the joint whose own directions are least independent."""
+    blocks = [i for i, s in enumerate(model.v_slice) if model.parent[i] > 0 and s.stop - s.start > 1]
+    least = [float(np.linalg.eigvalsh(scaled[s, s])[0]) for s in (model.v_slice[i] for i in blocks)]
+    return (model.joint_names[blocks[int(np.argmin(least))]],) if blocks else ()
+
+
+class _State(NamedTuple):
+    """One state in double precision; v and tau may be missing."""
+
+    model: Model
+    q: Array
+    v: Array | None
+    tau: Array | None
+
+    def accelerations(self) -> tuple[Array, Array] | None:
+        """Return q̈ without torques and with them; None where it is not determined."""
+        rates = np.zeros(self.model.nv) if self.v is None else self.v
+        try:
+            free = aba(self.model, self.q, rates, np.zeros(self.model.nv))
+            return free, free if self.tau is None else aba(self.model, self.q, rates, self.tau)
+        except ValueError:
+            return None
+
+    def cancelling(self) -> tuple[str, ...]:
+        """Return the joint with the largest terms of the bias force."""
+        if self.v is None:
+            return ()
+        own = np.sqrt(np.maximum(np.diagonal(_mass_matrix(self.model, self.q)), np.finfo(float).tiny))
+        return (_joint_at(self.model, int(np.argmax(_bias_terms(self.model, self.q, self.v) / own))),)
+
+
+def _losses(
+    state: _State, M: Array, parts: dict[str, tuple[float, tuple[str, ...]]], lost: float, error: float, eps: float
+) -> tuple[Loss, ...]:
+    """Return the causes that cost digits, the largest first, each with the cure for all of them."""
+    model, own = state.model, np.diagonal(M)
+    idle = tuple(dict.fromkeys(_joint_at(model, int(k)) for k in np.flatnonzero(own <= 0)))
+    if idle:
+        cure = "give the link a mass or the rotor an armature, or hold the joint: tw.lock_joints"
+        return (Loss("no inertia", idle, np.inf, cure),)
+    if lost < NAMED_DIGITS:
+        return ()
+    found = state.accelerations()
+    cure, lines = _cure(found is not None, error, eps)
+    lines = AS_DOUBLES + NORMALIZED * (eps > resolution(np.float64)) + lines
+    digits = {name: float(np.log10(max(size, 1))) for name, (size, _) in parts.items()}
+    named = [name for name in sorted(digits, key=lambda name: -digits[name]) if digits[name] >= PART_DIGITS]
+    losses = [Loss(name, parts[name][1], digits[name], cure, lines) for name in named]
+    if found is not None and state.tau is not None:
+        weight = np.sqrt(own)
+        size = max(float(np.abs(weight * x).max()) for x in (*found, found[1] - found[0]))
+        reach = float((np.abs(np.linalg.inv(_scaled(M))) @ (np.abs(state.tau) / weight)).max())
+        if size > 0 and reach > 10**NAMED_DIGITS * size:
+            keep = "no number type helps where tau itself was rounded: keep the q̈ that it was computed from"
+            losses.append(Loss("rounded tau", (), float(np.log10(reach / size)), keep))
+    return tuple(losses)
+
+
+def _cure(determined: bool, error: float, eps: float) -> tuple[str, str]:
+    """Return what to do against all losses, and the lines that do it: the cheapest that returns all digits."""
+    whole = int(-np.log10(eps) + 0.5)
+    double = resolution(np.float64)
+    if not determined:
+        return "M is singular to the rounding of doubles; 80 digits of newton_euler_3d tell whether q̈ exists", IN_MPMATH
+    if error * double / eps < eps:  # of a number type with fewer digits
+        return f"float64 keeps all {whole}, at the same cost", IN_FLOAT64
+    return f'a program in double-double keeps all {min(whole, 16)}: tw.compile(model, "aba", dtype="double-double")', IN_PAIRS
+
+
+def _elsewhere(state: _State, M: Array, least: float) -> tuple[Loss, ...]:
+    """Return what costs digits in other formulas at this state, and none here."""
+    model, own, found = state.model, np.diagonal(M), []
+    tree = tree_terms(model, state.q)
+    IC = composite_inertias(tree)
+    placed = forward_kinematics(model, state.q).placement
+    turning = [(i, k) for i in range(1, model.nbodies) for k in range(*model.v_slice[i].indices(model.nv))]
+    sizes = [IC[i][5, 5] * (placed[i].translation**2).sum() / own[k] for i, k in turning if own[k] > 0]
+    if sizes and max(sizes) > 10**NAMED_DIGITS:
+        cure = "put the base at the origin for a library that sums there: M, h and A_G do not depend on its place"
+        found.append(Loss("sums in the world", (), float(np.log10(max(sizes))), cure))
+    if state.v is not None and model.base == "floating":
+        terms = float(_bias_terms(model, state.q, state.v)[:3].max())
+        excess = float(IC[1][5, 5] * (state.v[3:6] ** 2).sum())
+        if excess > 10**NAMED_DIGITS * terms > 0:
+            cure = "subtract the base's velocity V from v and add ω × V to its acceleration: τ is the same"
+            found.append(Loss("v × m v", model.joint_names[1:2], float(np.log10(excess / terms)), cure))
+    values = np.linalg.eigvalsh(M)
+    if least > AMPLE_INERTIA_SHARE and values[0] > 0 and values[-1] > ILL_CONDITIONED * values[0]:
+        cure = "change nothing: it comes from units and masses, and no digit of q̈ is lost"
+        found.append(Loss("condition of M", (), float(np.log10(values[-1] / values[0])), cure))
+    for name, I in zip(model.joint_names, model.inertia):
+        moments = np.linalg.eigvalsh(I.inertia_at_com)
+        excess = float(I.mass * (I.com**2).sum())
+        if excess > 10**NAMED_DIGITS * moments[-1] > 0:
+            cure = "keep the ten numbers: SpatialInertia.from_matrix cannot bring back the inertia at the centre of mass"
+            found.append(Loss("matrix of a far body", (name,), float(np.log10(excess / moments[-1])), cure))
+    return tuple(found)

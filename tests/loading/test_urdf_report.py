@@ -247,6 +247,22 @@ def test_a_gear_alone_weighs_nothing_and_is_noted(save):
     assert [(entry.found, entry.warns) for entry in model.report] == [("a gear of 50", False)]
 
 
+@pytest.mark.parametrize(
+    "transmission",
+    [
+        '<transmission name="t"><joint name="j"/><actuator name="m"/>{}</transmission>',
+        '<transmission name="t"><joint name="j">{}</joint><actuator name="m"/></transmission>',
+        '<ros2_control name="c"><transmission name="t"><joint name="j">{}</joint></transmission></ros2_control>',
+    ],
+    ids=["of PR2", "of the joint", "of ros2_control"],
+)
+@pytest.mark.parametrize("name", ["mechanicalReduction", "mechanical_reduction"])
+def test_a_gear_is_noted_wherever_it_may_stand(save, transmission, name):
+    text = transmission.format(f"<{name}>50</{name}>")
+    model = tw.load(save(changed(JOINT, JOINT + text)), strict=True)
+    assert [(entry.where, entry.found) for entry in model.report] == [("joint 'j'", "a gear of 50")]
+
+
 def test_a_planar_axis_may_hold_what_cad_leaves_of_zero(save):
     planar = JOINT.replace("revolute", "planar").replace(LIMIT, '<axis xyz="1e-17 -1e-12 1"/>')
     assert tw.load(save(changed(JOINT, planar)), strict=True).nv == 3

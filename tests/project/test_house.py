@@ -23,7 +23,7 @@ TREES = {name: ast.parse(text) for name, text in TEXT.items()}
 
 ORDER = [
     *("errors", "tables", "arrays", "newton_euler_3d", "spatial", "model", "algorithms"),
-    *("straightline", "fast", "error_bounds", "tracing", "loading", "plot"),
+    *("straightline", "fast", "error_bounds", "identification", "tracing", "loading", "plot"),
     *("files", "stopping", "options", "timing", "contact", "simulation", "motions", "templates", "scene"),
     *("bridge", "viewing", "__init__", "validate", "step_choice", "advice", "exercises", "cli", "__main__"),
 ]

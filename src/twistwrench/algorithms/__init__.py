@@ -10,6 +10,7 @@ terms                    what the recursions return: `RneaTerms`, `AbaTerms`, `C
 kinematics      49.6     where are the bodies, and how do they move: placements, twists, Jacobians
 points          49.6     velocity, acceleration and Jacobian of a point given at run time
 rnea            49.6     which forces make a motion happen
+frame_wrench    49.6     the wrench through a weld: what a force-torque sensor reads
 singular                 where is q̈ not determined: `refuse_singular` raises with the joint's name
 aba             49.7     how does the robot accelerate
 articulated     49.7     the articulated inertia of a body, by its name

@@ -37,6 +37,7 @@ RESULTS = {
     **dict.fromkeys(("frame_jacobian", "contact_jacobian", "point_jacobian"), COLUMNS),
     **dict.fromkeys(("centroidal_map", "centroidal_map_rate", "center_of_mass_jacobian"), COLUMNS),
     **dict.fromkeys(("forward_kinematics", "frame_placement", "frame_bias_acceleration", "joint_wrenches"), UNCHANGED),
+    "frame_wrench": UNCHANGED,
     **dict.fromkeys(("kinetic_energy", "potential_energy", "center_of_mass"), UNCHANGED),
     **dict.fromkeys(("centroidal_momentum", "centroidal_momentum_rate", "centroidal_inertia"), UNCHANGED),
     **dict.fromkeys(("center_of_mass_velocity", "center_of_mass_acceleration"), UNCHANGED),

@@ -7,15 +7,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import DTypeLike
 
 from ..arrays import Array, as_exactly, as_flag, convert
 from ..errors import SingularError
-from ..model import Model
-from ..spatial import SE3
+from ..model import Model, readonly
+from ..spatial import SE3, log3
 from ..spatial._elementary import at_first_index, sqrt
+from .kinds import normal_axes, unit_direction
 from .relative import FrameRows, Posture, StateMotion
 from .types import Contact, RowValues, checked_frame, checked_motion
 
@@ -23,6 +25,10 @@ __all__ = ["Coupling", "DistanceConstraint", "LoopClosure"]
 
 WELD_ARM_M = 0.1
 """Of a weld that is held more often than needed, forces at so many metres from it weigh as much as those in it."""
+
+
+MIN_SINE = 1e-8
+"""An axis that is turned over within this angle, rad, has no direction back."""
 
 
 class _Internal(Contact):
@@ -48,9 +54,9 @@ class _Internal(Contact):
 
 @dataclass(frozen=True)
 class LoopClosure(_Internal):
-    """Two frames of one robot that stay together: as a ball joint does, or welded.
+    """Two frames of one robot that stay together: as a ball joint does, as a hinge does, or welded.
 
-    A frame's origin, or all of it, keeps its place in the frame `to`. A tree of bodies becomes a loop: a four-bar, a
+    A frame's origin, or all of it, keeps its place in the frame `to`; with an axis it turns about that alone. A tree of bodies becomes a loop: a four-bar, a
     box that two hands hold. λ acts on `frame`, in the axes of `to`, and the opposite wrench on `to` at the same point.
 
     Parameters
@@ -59,13 +65,16 @@ class LoopClosure(_Internal):
         On two bodies.
     welded : bool, optional
         Whether the frame cannot turn either: six rows (ω, v) instead of three.
-    velocity, acceleration : array_like, shape (3,) or (6,), optional
-        Of the frame in `to`, in the axes of `to`. At rest unless given.
+    axis : array_like, shape (3,), optional
+        Of a hinge through the frame's origin, in the axes of `to`; any length but 0. Five rows: ω about x and y of the
+        axes of `to`, turned the shortest way until z is the axis, then v.
+    velocity, acceleration : array_like, shape (3,), (5,) or (6,), optional
+        Of the frame in `to`, in the axes of the rows. At rest unless given. The axis of a hinge cannot turn in `to`.
 
     Raises
     ------
     ValueError
-        If a motion is not one number for each row.
+        If a motion is not one number for each row, or turns the axis; if `axis` is zero, or given with `welded`.
     TypeError
         If `welded` is not a bool.
 
@@ -83,30 +92,78 @@ class LoopClosure(_Internal):
     >>> held = tw.contact_forward_dynamics(model, [-0.3, 0.3, -0.3], np.zeros(3), [1.0, 0, 0], loop)
     >>> held.qdd.round(9), int(held.rank), int(held.redundant)  # 1 / (1/12 + 1 + 1/12)
     (array([ 0.85714286, -0.85714286,  0.85714286]), 2, 1)
+    >>> int(tw.contact_forward_dynamics(model, [-0.3, 0.3, -0.3], np.zeros(3), [1.0, 0, 0],
+    ...                                 [tw.LoopClosure("end", "tip", axis=[0, 1, 0])]).redundant)  # in a plane
+    3
     """
 
     frame: str
     to: str = field()
     welded: bool = False
+    axis: tuple[float, float, float] | None = field(default=None, kw_only=True)
     velocity: RowValues = field(default=(), kw_only=True)
     acceleration: RowValues = field(default=(), kw_only=True)
 
     def __post_init__(self) -> None:
         checked_frame(self.frame)
         checked_frame(self.to)
-        object.__setattr__(self, "welded", as_flag(self.welded, f"contact {self.frame!r}: welded"))
-        checked_motion(self, "velocity")
-        checked_motion(self, "acceleration")
+        which = f"contact {self.frame!r}"
+        object.__setattr__(self, "welded", as_flag(self.welded, f"{which}: welded"))
+        if self.axis is not None:
+            if self.welded:
+                raise ValueError(f"{which}: expected an axis to turn about, or welded=True, got both")
+            axis = as_exactly(self.axis, f"{which}: axis", 3)
+            object.__setattr__(self, "axis", unit_direction(self.frame, "axis", axis))
+        for name in ("velocity", "acceleration"):
+            checked_motion(self, name)
+            if self.axis is not None and any(getattr(self, name)[:2]):
+                raise ValueError(f"{which}: {name}: expected no turn of the axis in {self.to!r}: its first two are 0")
 
     @property
     def rows(self) -> slice:
-        """All six rows if welded, else the three linear ones."""
-        return slice(0 if self.welded else 3, 6)
+        """The three linear rows; all six of a weld, of which a hinge leaves one free."""
+        return slice(3 if self._is_ball else 0, 6)
+
+    @property
+    def _is_ball(self) -> bool:
+        return self.axis is None and not self.welded
 
     @property
     def points(self) -> Array:
-        """The frame's origin; of a weld six points around it."""
-        return WELD_ARM_M * np.concatenate([np.eye(3), -np.eye(3)]) if self.welded else np.zeros((1, 3))
+        """The frame's origin; of a weld and of a hinge six points around it."""
+        return np.zeros((1, 3)) if self._is_ball else WELD_ARM_M * np.concatenate([np.eye(3), -np.eye(3)])
+
+    @cached_property
+    def directions(self) -> Array:
+        """The rows; of a hinge those across its axis, and the linear ones."""
+        rows = np.eye(6)[self.rows]
+        if self.axis is None:
+            return readonly(rows)
+        across = normal_axes(self.axis).mT[:2]
+        return readonly(np.concatenate([across @ rows[:3], rows[3:]]))
+
+    def row_rotation(self, rotation: Array) -> Array:
+        """Return the identity: λ is in the axes of the rows."""
+        eye: Array = np.eye(self.dim, dtype=rotation.dtype)
+        return np.broadcast_to(eye, (*rotation.shape[:-2], self.dim, self.dim))
+
+    @cached_property
+    def grasp_map(self) -> Array:
+        """The matrix that makes λ of forces at the points, shape (dim, 3 k)."""
+        return readonly(self.directions @ self.wrench_map())
+
+    def held_turn(self, R: Array) -> Array:
+        """Return the turn from the anchor; of a hinge that of its axis, however far it has turned about it."""
+        if self.axis is None:
+            return log3(R)
+        axis = np.array(self.axis)
+        now = np.matvec(R, axis)
+        across = np.cross(axis, now)
+        sine = np.linalg.norm(across, axis=-1)[..., None]
+        cosine = (now * axis).sum(axis=-1, keepdims=True)
+        over = (sine < MIN_SINE) & (cosine < 0)  # all ways back are as long
+        unit = np.where(over, self.directions[0, :3], across / np.where(sine > 0, sine, 1))
+        return np.arctan2(sine, cosine) * unit
 
 
 @dataclass(frozen=True)

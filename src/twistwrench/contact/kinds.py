@@ -21,7 +21,15 @@ from ..spatial.rotation import cross_matrix
 from .relative import FrameRows, StateMotion
 from .types import Contact, RowValues, checked_frame, checked_motion, checked_restitution
 
-__all__ = ["PointContact", "SlidingContact", "SphereContact", "SurfaceContact", "WheelContact"]
+__all__ = [
+    "PointContact",
+    "SlidingContact",
+    "SphereContact",
+    "SurfaceContact",
+    "WheelContact",
+    "normal_axes",
+    "unit_direction",
+]
 
 MIN_ANGLE_RAD = 1e-9
 """Two normals with a smaller angle between them, rad, hold one direction."""
@@ -70,7 +78,7 @@ class PointContact(Contact):
     def __post_init__(self) -> None:
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
         normal = as_exactly(self.normal, f"contact {self.frame!r}: normal", 3)
-        object.__setattr__(self, "normal", _unit(self.frame, "normal", normal))
+        object.__setattr__(self, "normal", unit_direction(self.frame, "normal", normal))
         checked_motion(self, "velocity")
         checked_motion(self, "acceleration")
         checked_restitution(self)
@@ -86,7 +94,7 @@ class PointContact(Contact):
 
     @cached_property
     def _axes(self) -> Array:
-        return _normal_axes(self.normal)
+        return normal_axes(self.normal)
 
     @property
     def points(self) -> Array:
@@ -229,7 +237,7 @@ class SlidingContact(Contact):
         given = as_constant(as_array(self.normals, which, 3), which)
         if given.shape not in ((3,), (1, 3), (2, 3)):
             raise ShapeError(f"{which}: expected shape (3,) or (2, 3), got {given.shape}")
-        units = [_unit(self.frame, "normals", n) for n in given.reshape(-1, 3)]
+        units = [unit_direction(self.frame, "normals", n) for n in given.reshape(-1, 3)]
         if len(units) == 2 and not np.abs(np.cross(units[0], units[1])).max() > MIN_ANGLE_RAD:
             raise ValueError(f"{which}: expected two directions that are independent, got {given.tolist()}")
         object.__setattr__(self, "normals", tuple(units))
@@ -257,7 +265,7 @@ class SlidingContact(Contact):
 
     @cached_property
     def _axes(self) -> Array:
-        return _normal_axes(self.normals[0])
+        return normal_axes(self.normals[0])
 
     def row_rotation(self, rotation: Array) -> Array:
         """Return the identity: λ is along the normals."""
@@ -280,7 +288,7 @@ class SlidingContact(Contact):
         return (repr(self.frame),)
 
 
-def _normal_axes(normal: tuple[float, float, float]) -> Array:
+def normal_axes(normal: tuple[float, float, float]) -> Array:
     """Return the axes turned the shortest way until z is the normal."""
     x, y, z = normal
     sine = np.hypot(x, y)
@@ -288,7 +296,8 @@ def _normal_axes(normal: tuple[float, float, float]) -> Array:
     return exp3(turn)
 
 
-def _unit(frame: str, name: str, n: Array) -> tuple[float, float, float]:
+def unit_direction(frame: str, name: str, n: Array) -> tuple[float, float, float]:
+    """Return a direction with the length 1; raise if it is zero."""
     if not n.any():
         raise ValueError(f"contact {frame!r}: {name}: expected a direction, got zero")
     n = n / np.abs(n).max()
@@ -361,7 +370,7 @@ class SphereContact(Contact):
             raise ValueError(f"contact {self.frame!r}: radius: expected a length above 0, got {radius:g}")
         normal = as_exactly(self.normal, f"contact {self.frame!r}: normal", 3)
         object.__setattr__(self, "radius", radius)
-        object.__setattr__(self, "normal", _unit(self.frame, "normal", normal))
+        object.__setattr__(self, "normal", unit_direction(self.frame, "normal", normal))
         checked_restitution(self)
 
     @property
@@ -383,7 +392,7 @@ class SphereContact(Contact):
 
     def axes(self, rotation: Array) -> Array:
         """Return the axes of the world, turned the shortest way until z is the normal."""
-        return np.broadcast_to(_normal_axes(self.normal), rotation.shape)
+        return np.broadcast_to(normal_axes(self.normal), rotation.shape)
 
     @property
     def points(self) -> Array:
@@ -463,7 +472,7 @@ class WheelContact(Contact):
         object.__setattr__(self, "radius", radius)
         for name in ("axis", "normal"):
             given = as_exactly(getattr(self, name), f"contact {self.frame!r}: {name}", 3)
-            object.__setattr__(self, name, _unit(self.frame, name, given))
+            object.__setattr__(self, name, unit_direction(self.frame, name, given))
         checked_restitution(self)
 
     @property
@@ -499,7 +508,7 @@ class WheelContact(Contact):
 
     def axes(self, rotation: Array) -> Array:
         """Return the axes of the world, turned the shortest way until z is the normal."""
-        return np.broadcast_to(_normal_axes(self.normal), rotation.shape)
+        return np.broadcast_to(normal_axes(self.normal), rotation.shape)
 
     def arms(self, rotation: Array) -> Array:
         """Return the lowest point of the rim."""

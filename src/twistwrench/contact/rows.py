@@ -20,7 +20,7 @@ from ..fast.programs import cached_program
 from ..fast.quantities import Quantity, quantities
 from ..fast.watch import with_watch
 from ..model import Model, cast, check_model, check_state, in_double, joint_placements
-from ..spatial import SE3, exp3, log3
+from ..spatial import SE3, exp3
 from .decomposition import row_scaling
 from .relative import Posture, StateMotion
 from .types import Contact
@@ -339,6 +339,6 @@ def contact_errors(contacts: Sequence[Contact], now: Sequence[SE3], anchors: Map
         check_kind(anchors[c.frame], f"anchors[{c.frame!r}]", SE3, "an SE3")
         anchor = cast(anchors[c.frame], np.float64)
         moved = T.translation - anchor.translation
-        turned = log3(T.rotation @ anchor.rotation.mT) if c.placed[:, :3].any() else np.zeros_like(moved)
+        turned = c.held_turn(T.rotation @ anchor.rotation.mT) if c.placed[:, :3].any() else np.zeros_like(moved)
         parts.append(np.matvec(c.placed, np.concatenate([turned, moved], axis=-1)))
     return np.concatenate(parts, axis=-1)

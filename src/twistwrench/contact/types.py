@@ -21,7 +21,7 @@ from ..algorithms.kinematics import frame_jacobian
 from ..arrays import Array, as_exactly, as_number, convert
 from ..errors import unknown_name
 from ..model import Model, readonly
-from ..spatial import SE3
+from ..spatial import SE3, log3
 from ..spatial.rotation import cross_matrix
 from .relative import FrameRows, Loop, Posture, StateMotion
 
@@ -170,6 +170,10 @@ class Contact(ABC):
         """Return what the contact keeps of the frame's placement in what holds it: the placement itself."""
         return T
 
+    def held_turn(self, R: Array) -> Array:
+        """Return the turn R from the anchor, in the axes of what holds the contact, as a rotation vector."""
+        return log3(R)
+
     @property
     def placed(self) -> Array:
         """What is held of the frame's place, its turn and its shift, shape (dim, 6): `directions` unless it rolls."""
@@ -201,8 +205,11 @@ class Contact(ABC):
     @cached_property
     def grasp_map(self) -> Array:
         """The matrix G that makes λ of forces at the points, in the contact's axes, shape (dim, 3 k)."""
-        G = np.concatenate([np.concatenate([cross_matrix(p), np.eye(3)]) for p in self.points], axis=1)
-        return readonly(G[self.rows])
+        return readonly(self.wrench_map()[self.rows])
+
+    def wrench_map(self) -> Array:
+        """Return the matrix that makes the whole wrench (τ, f) of forces at the points, shape (6, 3 k)."""
+        return np.concatenate([np.concatenate([cross_matrix(p), np.eye(3)]) for p in self.points], axis=1)
 
     @cached_property
     def grasp_cholesky(self) -> Array:

@@ -165,7 +165,11 @@ DECLARATION = re.compile(rb"(\xef\xbb\xbf|\s)*(<\?xml\s[^>]*\?>)")
 ENCODING = re.compile(r"(?<=<\?xml)([^>]*?)\s+encoding\s*=\s*([\"'])[^\"'>]*\2")
 """Of a text, which has been decoded: what it declares no longer holds."""
 VERSION = re.compile(rb"version\s*=\s*([\"'])([^\"']*)\1")
-OTHER_FORMATS = {"sdf": "SDF", "mujoco": "MJCF", "COLLADA": "COLLADA"}
+OTHER_FORMATS = {
+    "sdf": "SDF; convert it to URDF first",
+    "mujoco": "MJCF; twistwrench.bridge.from_mujoco_model(mujoco.MjModel.from_xml_path(file)) reads it",
+    "COLLADA": "COLLADA; convert it to URDF first",
+}
 
 
 def read_robot_xml(path: Path) -> XML:
@@ -210,7 +214,7 @@ def read_document(path: Path, text: str | None = None) -> tuple[XML, list[Entry]
     _drop_namespace(root)
     if root.tag != "robot":
         known = OTHER_FORMATS.get(str(root.tag))
-        hint = f" (this looks like {known}; convert it to URDF first)" if known else ""
+        hint = f" (this looks like {known})" if known else ""
         raise ModelError(f"{path}: the root element is <{root.tag}>, expected <robot>{hint}")
     return root, remarks + _leftover_macros(path, root)
 

@@ -8,7 +8,7 @@ first, siblings in the order of their joints' names.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -326,7 +326,7 @@ class NumberedTree:
                 found["joint", link.joint_name] = Frame(carrier, at)
             found["link", link.name] = Frame(carrier, at)
             waiting += [(child, carrier, at) for child in children[link.name]]
-        self.frames = _named(found)
+        self.frames = _named(found, links)
 
     @property
     def moved(self) -> list[Link]:
@@ -417,14 +417,15 @@ def _link(group: list[Link]) -> str:
     return f"link {group[0].name!r}"
 
 
-def _named(found: Mapping[tuple[str, str], Frame]) -> dict[str, Frame]:
-    """Name the frames of links and joints.
+def _named(found: Mapping[tuple[str, str], Frame], links: Mapping[str, Link]) -> dict[str, Frame]:
+    """Name the frames of links and joints, each with the one that it hangs on and its link's own inertia.
 
     A link and a joint of one name are one frame where they share the place. Where they do not, neither
     gets the bare name, so that they cannot be confused: ``link:name`` and ``joint:name``.
     """
     frames: dict[str, Frame] = {}
     owner: dict[str, str] = {}
+    named: dict[tuple[str, str], str] = {}
     for (kind, name), frame in found.items():
         other = found.get(("link" if kind == "joint" else "joint", name), frame)
         same = other.body == frame.body and bool((other.placement.matrix() == frame.placement.matrix()).all())
@@ -432,4 +433,11 @@ def _named(found: Mapping[tuple[str, str], Frame]) -> dict[str, Frame]:
         if owner.setdefault(full, name) != name:  # a link really named link:name
             raise ModelError(f"{kind} {name!r}: the frame name {full!r} is taken")
         frames[full] = frame
+        named[kind, name] = full
+    for link in links.values():
+        own = named["link", link.name]
+        joint = named.get(("joint", link.joint_name), own)
+        carrier = named.get(("link", link.parent))
+        frames[joint] = replace(frames[joint], parent=carrier, inertia=SpatialInertia.zero())
+        frames[own] = replace(frames[own], parent=carrier if joint == own else joint, inertia=link.inertia)
     return frames

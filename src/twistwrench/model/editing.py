@@ -73,8 +73,12 @@ def attach(model: Model, other: Model, frame: str | None, *, placement: SE3 | No
     taken = {*model.joint_names, *model.frames}
     while root in taken:
         root += "_"
-    frames = {prefix + name: Frame(f.body + n, f.placement) for name, f in other.frames.items() if f.body > 0}
+    frames = {prefix + name: _carried(f, n, prefix) for name, f in other.frames.items() if f.body > 0}
     of_root = frames.pop(prefix + other.joint_names[1], None)  # where it is welded, its joint is gone
+    hangs_on = frame if of_root is None or frame is not None else root
+    for name, f in frames.items():
+        if f.parent == prefix + other.joint_names[1]:
+            frames[name] = replace(f, parent=hangs_on)
     frames |= {root: of_root} if of_root is not None and frame is None else {}
     names = [prefix + name for name in other.joint_names[2:]]
     if clash := sorted(taken & {*names, *frames}):
@@ -95,6 +99,12 @@ def attach(model: Model, other: Model, frame: str | None, *, placement: SE3 | No
         **limits,
     )
     return lock_joints(whole, [root], whole.neutral()).model if frame is not None else whole
+
+
+def _carried(frame: Frame, n: int, prefix: str) -> Frame:
+    """Return a frame as it is after n other bodies, with the prefix before names."""
+    parent = None if frame.parent is None else prefix + frame.parent
+    return replace(frame, body=frame.body + n, parent=parent)
 
 
 def replace_inertia(model: Model, frame: str, inertia: SpatialInertia, *, physical: bool = True) -> Model:

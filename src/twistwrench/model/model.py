@@ -32,7 +32,7 @@ __all__ = ["Frame", "Model"]
 
 @dataclass(frozen=True)
 class Frame:
-    """A named frame fixed to a body.
+    """A named frame fixed to a body. Two are equal if they are at one place.
 
     Parameters
     ----------
@@ -40,10 +40,16 @@ class Frame:
         The body that carries it; 0 is the world.
     placement : SE3
         Of the frame in the body's frame.
+    parent : str, optional
+        The frame that it hangs on: a link on its joint, a joint on the link before it. None for the root.
+    inertia : SpatialInertia, optional
+        Of the link at this frame alone, in its axes; zero of a joint. None where it is not known.
     """
 
     body: int
     placement: SE3
+    parent: str | None = field(default=None, compare=False)
+    inertia: SpatialInertia | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -18,7 +18,7 @@ from ..errors import NameNotFound
 from ..spatial import SE3, SpatialInertia
 from .arguments import one_configuration
 from .checks import PER_DOF
-from .model import Frame, Model
+from .model import Model
 from .state import in_double
 from .tree import joint_placements
 
@@ -156,7 +156,10 @@ def lock_joints(model: Model, joints: Iterable[str], q: ArrayLike) -> Reduction:
         parent=(-1, *(carrier[p] for p in up)),
         placement=(model.placement[0], *(in_carrier[p] @ model.placement[i] for p, i in zip(up, kept))),
         inertia=_merged(model, carrier, in_carrier, 1 + len(kept)),
-        frames={name: Frame(carrier[f.body], in_carrier[f.body] @ f.placement) for name, f in model.frames.items()},
+        frames={
+            name: replace(f, body=carrier[f.body], placement=in_carrier[f.body] @ f.placement)
+            for name, f in model.frames.items()
+        },
         lower=model.lower[kept_q],
         upper=model.upper[kept_q],
         postures={name: posture[kept_q] for name, posture in model.postures.items()},

@@ -171,7 +171,7 @@ def reroot(model: Model, frame: str) -> Rerooting:
         parent=(-1, *(number[up[i]] for i in order[1:])),
         placement=tuple(place[i] for i in order),
         inertia=tuple(model.inertia[i].transform(back[i]) for i in order),
-        frames={name: Frame(number[f.body], back[f.body] @ f.placement) for name, f in model.frames.items()},
+        frames={name: _moved_frame(f, number[f.body], back[f.body], f.body in way) for name, f in model.frames.items()},
         lower=model.lower[new_q],
         upper=model.upper[new_q],
         postures={},
@@ -180,6 +180,12 @@ def reroot(model: Model, frame: str) -> Rerooting:
     both = Rerooting(model, there, frame)
     postures = {name: both.convert(q, np.zeros(model.nv))[0] for name, q in model.postures.items()}
     return replace(both, model=replace(there, postures=postures))
+
+
+def _moved_frame(frame: Frame, body: int, back: SE3, turned: bool) -> Frame:
+    """Return a frame on its new body; on the way what hung on it is now before it, so that is no longer known."""
+    moved = replace(frame, body=body, placement=back @ frame.placement)
+    return replace(moved, parent=None, inertia=None) if turned else moved
 
 
 def _depth_first(parent: list[int], names: list[str]) -> list[int]:

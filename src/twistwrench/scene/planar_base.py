@@ -9,7 +9,7 @@ import numpy as np
 
 from ..algorithms.floating_base import base_placement
 from ..arrays import Array
-from ..model import PER_DOF, Frame, FreeFlyer, Model, Planar, cast
+from ..model import PER_DOF, FreeFlyer, Model, Planar, cast
 from ..spatial import SE3
 
 __all__ = ["PlanarBase"]
@@ -56,7 +56,7 @@ class PlanarBase:
             joints=(None, Planar(), *full.joints[2:]),
             placement=(full.placement[0], SE3.identity(), *(_on(base, p, T) for p, T in _rest(full))),
             inertia=(full.inertia[0], full.inertia[1].transform(base), *full.inertia[2:]),
-            frames={name: Frame(f.body, _on(base, f.body, f.placement)) for name, f in full.frames.items()},
+            frames={name: replace(f, placement=_on(base, f.body, f.placement)) for name, f in full.frames.items()},
             lower=np.concatenate([full.lower[q1][:2], [-np.inf, -np.inf], full.lower[q1.stop :]]),
             upper=np.concatenate([full.upper[q1][:2], [np.inf, np.inf], full.upper[q1.stop :]]),
             postures={},
