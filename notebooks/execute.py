@@ -40,7 +40,13 @@ def run(path: Path) -> NotebookNode:
         settings.write_text("svg.hashsalt: twistwrench\n", encoding="utf-8")  # the same names in each run
         options = {"timeout": SLOWEST, "record_timing": False, "coalesce_streams": True}
         options |= {"resources": {"metadata": {"path": folder}}, "extra_arguments": ["--log-level=40"]}
-        NotebookClient(notebook, **options).execute(env=os.environ | SAME | {"MATPLOTLIBRC": str(settings)})
+        environment = os.environ | SAME | {"MATPLOTLIBRC": str(settings)}
+        try:
+            NotebookClient(notebook, **options).execute(env=environment)
+        except RuntimeError as error:  # kernels that start at the same time may choose the same port
+            if "before replying to kernel_info" not in str(error):
+                raise
+            NotebookClient(notebook, **options).execute(env=environment)
     outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
     if complaints := [output.text for output in outputs if output.get("name") == "stderr"]:
         raise ValueError(f"{path.parent.name}/{path.name} wrote to stderr: {complaints[0]}")
