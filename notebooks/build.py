@@ -1,4 +1,4 @@
-"""Build the notebooks: from each text in source/, one in English and one in Chinese, without outputs.
+"""Build the notebooks: from each text in source/, one in English and one in Chinese.
 
 usage:  python notebooks/build.py             write en/ and zh/
         python notebooks/build.py --check     change nothing; exit 1 where a notebook is not what its source says
@@ -18,6 +18,8 @@ Asserts at the top of a code cell, and what draws a picture from its figure to `
 after it, whose code is folded away: a reader sees what is computed, and unfolds the rest. A cell that tells the answer
 of an exercise says which, `after="49.6.3"`: it is folded away with its outputs, and opened after that exercise. What
 only prepares the rest, imports and names, is marked `setup="yes"`, and folded as well.
+
+What a notebook shows is kept while its code stays the same; `python notebooks/execute.py` runs it anew.
 
 In the Chinese text, commas, brackets, quotation marks and the like may be typed as English has them, and a line may
 end anywhere.
@@ -259,6 +261,18 @@ def build(source: Path, language: str) -> str:
     return nbformat.writes(notebook) + "\n"
 
 
+def with_outputs(text: str, path: Path) -> str:
+    """Return a built notebook with the outputs of the one that is there, unless its code has changed since."""
+    there = nbformat.read(path, as_version=4) if path.exists() else nbformat.v4.new_notebook()
+    notebook = nbformat.reads(text, as_version=4)
+    ours, theirs = ([cell for cell in n.cells if cell.cell_type == "code"] for n in (notebook, there))
+    if [cell.source for cell in ours] != [cell.source for cell in theirs]:
+        return text
+    for cell, other in zip(ours, theirs, strict=True):
+        cell.outputs = other.outputs
+    return nbformat.writes(notebook) + "\n"
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Write all notebooks, or check them."""
     parser = argparse.ArgumentParser(description="Build the notebooks from their sources.")
@@ -267,7 +281,8 @@ def main(arguments: list[str] | None = None) -> int:
     stale = []
     for source in sources():
         for language in LANGUAGES:
-            path, text = target(source, language), build(source, language)
+            path = target(source, language)
+            text = with_outputs(build(source, language), path)
             if path.exists() and path.read_text(encoding="utf-8") == text:
                 continue
             stale.append(path.relative_to(HERE).as_posix())

@@ -91,7 +91,7 @@ def write_runtime(html: Path) -> None:
 
 
 def write_downloads(html: Path, languages: Sequence[str], names: list[str]) -> None:
-    """Write the notebooks, without outputs, where the pages' links lead."""
+    """Write the notebooks, as they are kept, where the pages' links lead."""
     for language in languages:
         for name in names:
             source = ROOT / "notebooks" / language / f"{name}.ipynb"

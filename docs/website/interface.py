@@ -1,8 +1,8 @@
 """The pages of the interface: one for each room, and in the chapter's rooms one for each file that offers something.
 
-The order is that of the rooms' tables of files and of README's table, which also says to which section a room belongs.
-What a page says comes from the docstrings, the formulas from docs/map.md. In Chinese each room and each name has a line
-of its own from names.zh-CN.toml, and below it the docstring in English.
+The order is that of the rooms' tables of files and of the table in docs/contributing.md, which also says to which
+section a room belongs. What a page says comes from the docstrings, the formulas from docs/map.md. In Chinese each room
+and each name has a line of its own from names.zh-CN.toml, and below it the docstring in English.
 """
 
 from __future__ import annotations
@@ -60,13 +60,13 @@ class Formula(NamedTuple):
 
 
 def rooms() -> list[str]:
-    """Return the rooms in the order of README's table, the errors last."""
+    """Return the rooms in the order of the table in docs/contributing.md, the errors last."""
     found = dict.fromkeys(file.split("/")[0] for file in _rows())
     return [*(room for room in found if room != LAST), LAST]
 
 
 def sections() -> dict[str, str]:
-    """Return the section of the chapter of each page: of a file by its room's table, of another room by README's."""
+    """Return the section of the chapter of each page: of a file by its room's table, of a room by contributing.md."""
     found = {room: section for room, section in _rows().items() if section and "/" not in room}
     for room in CHAPTER:
         found |= {f"{room}/{file}": section for file, section in files(room).items() if section}
@@ -80,8 +80,8 @@ def files(room: str) -> dict[str, str]:
 
 
 def _rows() -> dict[str, str]:
-    """Return what README's table names, each file or folder of the source, with its section or nothing."""
-    rows = re.findall(r"^\| (49\.\d+)? ?\|([^|]*`)[^|]*\|.*\|$", _text("README", "en"), re.MULTILINE)
+    """Return what contributing.md's table names, each file or folder of the source, with its section or nothing."""
+    rows = re.findall(r"^\| (49\.\d+)? ?\|([^|]*`)[^|]*\|.*\|$", _text("docs/contributing", "en"), re.MULTILINE)
     return {file: section for section, cell in rows for file in re.findall(r"`([\w/]+?)(?:\.py|/)`", cell)}
 
 

@@ -22,14 +22,17 @@ import nbformat
 from . import figures
 from .pages import ROOT, write
 
-SLOWEST = 120  # s, a notebook, on a machine that does other things too
-
 
 def builder() -> ModuleType:
     """Return notebooks/build.py, which knows the notebooks and their order."""
-    spec = importlib.util.spec_from_file_location("notebooks_build", ROOT / "notebooks" / "build.py")
+    return _script("build")
+
+
+def _script(name: str) -> ModuleType:
+    """Return a script of notebooks/."""
+    spec = importlib.util.spec_from_file_location(f"notebooks_{name}", ROOT / "notebooks" / f"{name}.py")
     if spec is None or spec.loader is None:
-        raise ImportError("notebooks/build.py cannot be imported")
+        raise ImportError(f"notebooks/{name}.py cannot be imported")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -59,19 +62,8 @@ def key(notebook: nbformat.NotebookNode, common: str) -> str:
 
 def execute(path: Path, result: Path) -> Path:
     """Run a notebook in an empty folder and keep the outputs of its code cells."""
-    import tempfile
-
-    from nbclient import NotebookClient
-
-    notebook = nbformat.read(path, as_version=4)
-    with tempfile.TemporaryDirectory() as folder:
-        place = {"metadata": {"path": folder}}
-        NotebookClient(notebook, timeout=SLOWEST, resources=place, extra_arguments=["--log-level=40"]).execute()
-    outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
-    if complaints := [output.text for output in outputs if output.get("name") == "stderr"]:
-        raise ValueError(f"{path.parent.name}/{path.name} wrote to stderr: {complaints[0]}")
     whole = result.with_name(f"{path.parent.name}-{result.name}")
-    nbformat.write(notebook, whole)
+    nbformat.write(_script("execute").run(path), whole)
     whole.replace(result)  # a reader finds all of it or nothing
     return result
 

@@ -1,8 +1,9 @@
 """The notebooks: in step with their sources, alike in both languages, and right when they are run."""
 
 import ast
+import base64
 import importlib.util
-import json
+import io
 import re
 import time
 import tomllib
@@ -18,9 +19,16 @@ nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: th
 pytest.importorskip("jupytext", reason="jupytext is not installed: the notebooks are not checked")
 
 FOLDER = Path(__file__).resolve().parents[2] / "notebooks"
-spec = importlib.util.spec_from_file_location("build", FOLDER / "build.py")
-build = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(build)
+
+
+def script(name):
+    spec = importlib.util.spec_from_file_location(f"notebooks_{name}", FOLDER / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+build, execute = script("build"), script("execute")
 
 SOURCES = build.sources()
 SECTIONS = [source for source in SOURCES if source.stem.startswith("49")]
@@ -56,8 +64,9 @@ def test_every_source_is_built_and_every_notebook_has_a_source():
 @pytest.mark.parametrize("language", build.LANGUAGES)
 @pytest.mark.parametrize("source", SOURCES, ids=by_name)
 def test_a_notebook_is_what_its_source_says(source, language):
-    kept = build.target(source, language).read_text(encoding="utf-8")
-    assert kept == build.build(source, language), "run: python notebooks/build.py"
+    path = build.target(source, language)
+    expected = build.with_outputs(build.build(source, language), path)
+    assert path.read_text(encoding="utf-8") == expected, "run: python notebooks/build.py"
 
 
 def test_a_stale_notebook_is_noticed_and_mended(tmp_path, monkeypatch, capsys):
@@ -73,6 +82,58 @@ def test_a_stale_notebook_is_noticed_and_mended(tmp_path, monkeypatch, capsys):
     capsys.readouterr()
     assert build.main(["--check"]) == 1
     assert capsys.readouterr().out == "zh/00_first.ipynb: out of step with its source\n"
+
+
+def test_what_a_notebook_shows_is_kept_as_long_as_its_code_is(tmp_path, monkeypatch):
+    source = tmp_path / "source" / "00_first.py"
+    source.parent.mkdir()
+    monkeypatch.setattr(build, "HERE", tmp_path)
+
+    def shown(text, code):
+        words = (f'# %% [markdown] lang="{language}"\n# {text}\n' for language in build.LANGUAGES)
+        source.write_text(f"{''.join(words)}# %%\n{code}\n", encoding="utf-8")
+        build.main([])
+        text, cell = nbformat.read(tmp_path / "zh" / "00_first.ipynb", as_version=4).cells
+        return text.source, cell.outputs
+
+    assert shown("one", "print(1)") == ("one", [])
+    path = tmp_path / "zh" / "00_first.ipynb"
+    done = nbformat.read(path, as_version=4)
+    done.cells[1].outputs = [nbformat.v4.new_output("stream", text="1\n")]
+    nbformat.write(done, path)
+    assert shown("two", "print(1)") == ("two", done.cells[1].outputs)
+    assert build.main(["--check"]) == 0
+    assert shown("two", "print(2)") == ("two", [])
+
+
+def test_what_a_second_run_does_not_repeat_is_not_kept():
+    def result(number, count):
+        return nbformat.v4.new_output("execute_result", data={"text/plain": number}, execution_count=count)
+
+    def ran(*outputs):
+        return nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell("x", outputs=[one]) for one in outputs])
+
+    notebook = ran(result("0", None), result("0", None))
+    runs = ran(result("7", 1), result("0.1 ms", 2)), ran(result("7", 3), result("0.2 ms", 4))
+    kept = execute.keep(notebook, runs, "en").cells
+    assert [cell.outputs for cell in kept[:1]] == [[result("7", None)]]
+    assert [output.text for output in kept[1].outputs] == [execute.VARIES["en"]]
+
+
+def test_a_picture_is_kept_with_few_colours():
+    image = pytest.importorskip("PIL.Image", reason="Pillow is not installed: no picture is made")
+    noise = image.effect_noise((90, 60), 80).convert("RGB")
+    content = io.BytesIO()
+    noise.save(content, "PNG")
+    png = base64.b64encode(content.getvalue()).decode()
+    output = nbformat.v4.new_output("display_data", data={"image/png": png, "text/plain": "<Figure size 90x60>"})
+    small = execute.small(output)
+    assert list(small.data) == ["image/png"]
+    assert len(small.data["image/png"]) < len(png)
+    with image.open(io.BytesIO(base64.b64decode(small.data["image/png"]))) as picture:
+        assert picture.size == (90, 60)
+        assert len(picture.getcolors()) <= execute.COLOURS
+    assert output.data["image/png"] == png
 
 
 # ---------------------------------------------------------------- in both languages
@@ -244,12 +305,35 @@ def test_no_mark_of_a_chinese_notebook_is_as_narrow_as_in_english(source):
 # ---------------------------------------------------------------- what is in them
 
 
+def shows(body):
+    """Whether statements print or draw, or end with a question, wherever they are run."""
+    last = body[-1:] and ast.unparse(body[-1]).startswith("tw.ask(")
+    calls = [node.value for node in body if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call)]
+    loops = [node for node in body if isinstance(node, ast.For | ast.With)]
+    return last or any(ast.unparse(c.func) in ("print", "plt.show") for c in calls) or any(shows(n.body) for n in loops)
+
+
 @pytest.mark.parametrize("language", build.LANGUAGES)
 @pytest.mark.parametrize("source", SOURCES, ids=by_name)
-def test_a_notebook_carries_no_outputs(source, language):
-    cells = json.loads(build.target(source, language).read_text(encoding="utf-8"))["cells"]
-    assert [cell["outputs"] for cell in cells if cell.get("outputs")] == []
-    assert {cell["execution_count"] for cell in cells if cell["cell_type"] == "code"} == {None}
+def test_a_notebook_shows_what_its_cells_print_and_nothing_of_the_machine(source, language):
+    cells = [cell for cell in notebook(source, language).cells if cell.cell_type == "code"]
+    assert {cell.execution_count for cell in cells} == {None}
+    if not any(cell.outputs for cell in cells):
+        pytest.skip("it has not been run since its code changed: python notebooks/execute.py")
+    assert [cell.source for cell in cells if shows(ast.parse(cell.source).body) and not cell.outputs] == []
+    texts = list(filter(None, (said(output) for cell in cells for output in cell.outputs)))
+    assert texts
+    for text in texts:
+        assert not re.search(r"\b0x[0-9a-f]{6,}|/(?:home|root|tmp|work|Users)/|[A-Z]:\\\\|site-packages", text), text
+    size = build.target(source, language).stat().st_size
+    assert size < 400_000
+
+
+def said(output):
+    """The text of an output; of HTML and SVG, the source."""
+    data = output.get("data", {})
+    parts = [output.get("text", ""), *(data[kind] for kind in data if not kind.startswith("image/png"))]
+    return "\n".join(parts)
 
 
 @pytest.mark.parametrize("source", SOURCES, ids=by_name)
@@ -400,3 +484,27 @@ def test_a_notebook_runs_in_a_minute_and_its_claims_hold(source, language, monke
     if not result.exists():
         notebooks.execute(path, result)
     assert time.perf_counter() - start < SLOWEST
+    kept = [cell.outputs for cell in notebook(source, language).cells if cell.cell_type == "code"]
+    if any(kept) and importlib.util.find_spec("pinocchio"):  # without it, comparisons are skipped
+        anew = [cell.outputs for cell in nbformat.read(result, as_version=4).cells if cell.cell_type == "code"]
+        for ours, theirs in zip(kept, anew, strict=True):
+            if [execute.VARIES[language]] != [output.get("text") for output in ours]:
+                assert_alike(ours, list(map(execute.small, theirs)))
+
+
+def assert_alike(kept, anew):
+    """The same outputs: the same words, and the same numbers but for rounding. Pictures are not compared."""
+    assert [sorted(output.get("data", ())) for output in kept] == [sorted(output.get("data", ())) for output in anew]
+    number = r"[-+]?\d+\.?\d*(?:e[-+]?\d+)?"
+    for one, other in zip(kept, anew):
+        (words, numbers), (their_words, their_numbers) = (
+            (re.sub(rf"\s*{number}", "#", text), [float(x) for x in re.findall(number, text)])
+            for text in (plain(one), plain(other))
+        )
+        assert words == their_words
+        assert numbers == pytest.approx(their_numbers, rel=1e-3, abs=1e-9)
+
+
+def plain(output):
+    """The text of an output."""
+    return output.get("text") or output.get("data", {}).get("text/plain", "")

@@ -1,8 +1,9 @@
-"""The README runs, prints what its comments say, and is the same in both languages."""
+"""The README runs, prints what its comments say, and is the same in both languages; the table of files is complete."""
 
 import contextlib
 import io
 import re
+import runpy
 from pathlib import Path
 
 import pytest
@@ -10,10 +11,13 @@ import pytest
 import twistwrench as tw
 from twistwrench import algorithms, spatial
 
+from .test_companion import headings
 from .test_house import ORDER, section
 
 ROOT = Path(__file__).parents[2]
 ENGLISH, CHINESE = ((ROOT / name).read_text(encoding="utf-8") for name in ("README.md", "README.zh-CN.md"))
+LANGUAGES = ("", ".zh-CN")
+FILES, CHINESE_FILES = ((ROOT / f"docs/contributing{x}.md").read_text(encoding="utf-8") for x in LANGUAGES)
 
 
 def blocks(text, language):
@@ -65,9 +69,9 @@ def rows(text):
 
 
 def test_the_map_of_the_chapter_names_files_and_functions_that_exist():
-    assert rows(ENGLISH) == rows(CHINESE)
-    assert len(rows(ENGLISH)) == 43
-    for files, names in rows(ENGLISH):
+    assert rows(FILES) == rows(CHINESE_FILES)
+    assert len(rows(FILES)) == 43
+    for files, names in rows(FILES):
         assert files
         for file in files:
             assert any((ROOT / package / file).exists() for package in ("src/twistwrench", "src")), file
@@ -76,14 +80,14 @@ def test_the_map_of_the_chapter_names_files_and_functions_that_exist():
 
 
 def test_the_map_of_the_chapter_has_every_room_after_those_that_it_imports_from():
-    rooms = list(dict.fromkeys(section(file) for files, _ in rows(ENGLISH) for file in files))
+    rooms = list(dict.fromkeys(section(file) for files, _ in rows(FILES) for file in files))
     assert rooms == [room for room in ORDER if room not in ("__init__", "__main__")]
 
 
 def test_the_sections_are_those_of_the_rooms_own_tables():
     tables = f"{algorithms.__doc__}\n{spatial.__doc__}"
     ours = dict(re.findall(r"^(\w+) +(49\.\d+)", tables, re.MULTILINE))
-    said = re.findall(r"^\| (49\.\d+) \|([^|]*)\|", ENGLISH, re.MULTILINE)
+    said = re.findall(r"^\| (49\.\d+) \|([^|]*)\|", FILES, re.MULTILINE)
     for number, files in said:
         for file in re.findall(r"`(?:spatial|algorithms)/(\w+)\.py`", files):
             assert ours.get(file, number) == number
@@ -95,3 +99,40 @@ def test_the_numbers_of_robots_are_right():
     assert (len(own), len(others)) == (6, 68)
     assert "six robots" in ENGLISH
     assert "the 68 of" in ENGLISH
+
+
+def days(file):
+    """What a table of days has of exercises, by the day."""
+    table = re.findall(r"^\| (\d+) \|(.*)\|$", (ROOT / file).read_text(encoding="utf-8"), re.MULTILINE)
+    return {int(day): re.findall(r"49\.\d+\.\d+(?:–\d)?|project\.\d", cells) for day, cells in table}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_days_are_those_of_the_plan(language):
+    plan = days(f"docs/companion{language}.md")
+    assert list(plan) == list(range(1, 15))
+    assert days(f"README{language}.md") == plan
+
+
+@pytest.mark.parametrize("page", [f"README{language}.md" for language in LANGUAGES])
+def test_every_link_leads_to_a_file_and_to_a_heading_of_it(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    links = re.findall(r"""(?:\]\(|src(?:set)?=")(?!https?:)([^)#"]*)(?:#([^)"]*))?""", text)
+    assert len(links) > 30
+    for target, anchor in links:
+        assert (ROOT / target).exists(), target
+        assert not anchor or anchor in headings(ROOT / target), (target, anchor)
+
+
+def test_the_first_picture_shows_a_line_of_the_package_and_the_weight_of_the_robot():
+    pytest.importorskip("matplotlib", reason="matplotlib is not installed: the picture is not drawn")
+    door = runpy.run_path(str(ROOT / "docs/pictures/door.py"), run_name="door")
+    weight = f"{tw.load('go2').mass * 9.81:.1f}"
+    for inks in door["INKS"].values():
+        figure = door["draw"](*inks)
+        said = [text.get_text() for text in figure.texts]
+        assert said[:2] == [r"$F_{\lambda(i)} \leftarrow F_{\lambda(i)} + X_i^T F_i$", "F[p] = F[p] + X[i].mT @ F[i]"]
+        assert said[7] == weight
+        assert figure.axes[0].texts[0].get_text().strip() == f"{weight} N"
+    assert f"{weight} N" in ENGLISH
+    assert f"{weight} N" in CHINESE
