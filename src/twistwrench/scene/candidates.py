@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import combinations
 from typing import NamedTuple
 
@@ -18,6 +18,7 @@ from ..model import Model, lock_joints, matching_joints
 from ..templates import TEMPLATES
 from ..templates.reduced import Full, LinearPendulum
 from ..templates.template import Template, full_rate
+from .dynamics import push
 
 __all__ = ["Articulated", "Candidate", "candidates", "heights", "limbs", "radius_of_gyration", "scene_candidate"]
 
@@ -38,15 +39,17 @@ class Articulated:
     """From a state of the whole robot to one of the model."""
     kept: Array
     """The entries of the whole robot's τ that it has, and where they are in its own: shape (2, k)."""
+    wrenches: Mapping[str, Array] = field(default_factory=dict)
+    """From outside, on frames: (τ, f) in the axes of the world."""
 
     @classmethod
-    def of(cls, full: Model, model: Model, reduce: Reduce) -> Articulated:
+    def of(cls, full: Model, model: Model, reduce: Reduce, wrenches: Mapping[str, Array] | None = None) -> Articulated:
         """Return a model in place of the whole robot; joints of one name and size are the same."""
         there = dict(zip(full.joint_names, full.v_slice))
         both = [(there[name], s) for name, s in zip(model.joint_names[1:], model.v_slice[1:]) if name in there]
         same = [(s, t) for s, t in both if s.stop - s.start == t.stop - t.start]  # not the base, where it is another
         pairs = [pair for s, t in same for pair in zip(range(full.nv)[s], range(model.nv)[t])]
-        return cls(full, model, reduce, np.array(pairs, int).reshape(-1, 2).mT)
+        return cls(full, model, reduce, np.array(pairs, int).reshape(-1, 2).mT, wrenches or {})
 
     def read(self, q: Array, v: Array, a: Array) -> tuple[Array, ...]:
         """Return the model's state, and where it does not float the centre of mass of the whole robot."""
@@ -56,7 +59,12 @@ class Articulated:
     def law(self, *known: Array) -> tuple[Array, Array]:
         """Return ḣ_G = (k̇, l̇), shape (..., 6), and τ without contact forces, shape (..., k)."""
         q, v, a, *about = known
-        tau = rnea(self.model, q, v, a)[..., self.kept[1]]
+        tau = (
+            rnea(self.model, q, v, a) - push(self.model, self.wrenches, q)
+            if self.wrenches
+            else rnea(self.model, q, v, a)
+        )
+        tau = tau[..., self.kept[1]]
         if not about:
             return full_rate(self.model, q, v, a), tau
         rate = centroidal_momentum_rate(self.model, q, v, a)
@@ -95,11 +103,15 @@ class Candidate(NamedTuple):
 
 
 def candidates(
-    model: Model, q: Array, groups: Mapping[str, Iterable[str]], feet: Sequence[Contact]
+    model: Model,
+    q: Array,
+    groups: Mapping[str, Iterable[str]],
+    feet: Sequence[Contact],
+    wrenches: Mapping[str, Array],
 ) -> Iterator[Candidate]:
     """Yield the templates, and the full model with each group of joints held in q, with any two, and with all."""
     for name, kind in TEMPLATES.items():
-        yield _template(name, kind, model, q, feet)
+        yield _template(name, kind, model, q, feet, wrenches)
     whole = len(model.joint_names) - _first(model)
     tried = set[frozenset[str]]()
     held = {name: matching_joints(model, joints) for name, joints in groups.items()}
@@ -114,13 +126,13 @@ def candidates(
                 yield Candidate(
                     "hold " + " + ".join(names),
                     said,
-                    Articulated.of(model, small.model, small.reduce) if fits else None,
+                    Articulated.of(model, small.model, small.reduce, wrenches) if fits else None,
                     "" if fits else "nothing is left to move",
                 )
 
 
 def scene_candidate(
-    full: Model, small: Model, base: str, gone: Collection[str], reduce: Callable[[Array, Array], tuple[Array, Array]]
+    full: Model, small: Model, base: str, gone: Collection[str], reduce: Reduce, wrenches: Mapping[str, Array]
 ) -> Iterator[Candidate]:
     """Yield the model of a scene in place of the whole robot, where it leaves anything out."""
     said = [] if base == full.base else [LEFT_OUT[base]]
@@ -128,13 +140,15 @@ def scene_candidate(
         said.append(f"the motion of {len(gone)} of {len(full.joint_names) - _first(full)} joints")
     if said:
         text = " and ".join(said)
-        yield Candidate("this scene", f"{text[0].upper()}{text[1:]}.", Articulated.of(full, small, reduce))
+        yield Candidate("this scene", f"{text[0].upper()}{text[1:]}.", Articulated.of(full, small, reduce, wrenches))
 
 
-def _template(name: str, kind: type[Template], model: Model, q: Array, feet: Sequence[Contact]) -> Candidate:
+def _template(
+    name: str, kind: type[Template], model: Model, q: Array, feet: Sequence[Contact], wrenches: Mapping[str, Array]
+) -> Candidate:
     """Return a template, or why it does not apply to this robot."""
     if kind is Full:
-        return Candidate(name, kind.assumes, Articulated.of(model, model, lambda q, v: (q, v)))
+        return Candidate(name, kind.assumes, Articulated.of(model, model, lambda q, v: (q, v), wrenches))
     try:
         if kind is LinearPendulum and feet and not model.feet:
             pendulum = LinearPendulum.of(model, q, height=_height(model, q, feet))

@@ -13,13 +13,12 @@ from numpy.typing import ArrayLike
 from straightline.llvm import default_backend
 
 from ..arrays import Array, as_number
-from ..contact import Contact
 from ..errors import check_known
 from ..model import Model
 from ..motions import Motion
 from ..tables import aligned, html_table
 from ..templates.template import Template
-from .candidates import Articulated, Candidate, radius_of_gyration
+from .candidates import Articulated, Candidate
 from .compiled import compile_law, seconds
 from .judging import QUANTITIES, ReferenceMotion, scale, unit
 
@@ -279,15 +278,13 @@ def costs(
     model: Model,
     motions: Sequence[Motion],
     held_out: Sequence[Motion],
+    judges: Sequence[Sequence[ReferenceMotion]],
     need: Mapping[str, float],
     margin: float,
     tried: Iterable[Candidate],
-    contacts: Sequence[Contact],
     motors: Array,
 ) -> Costs:
     """See `Scene.cheapest`."""
-    length = radius_of_gyration(model, motions[0].q[0])
-    judges = [[ReferenceMotion.of(model, motion, contacts, length) for motion in some] for some in (motions, held_out)]
     for judge, motion in zip([*judges[0], *judges[1]], [*motions, *held_out]):
         for name in need:
             if name not in judge.tells:

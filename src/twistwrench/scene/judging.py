@@ -1,8 +1,9 @@
 """What a model's answer misses, in what people think in: wrench, centre of pressure, contact forces, torques.
 
 The wrench that the ground must exert is ḣ_G less the weight, which a robot with held joints has elsewhere, too. It is
-shared out among the contacts that stand, the least forces that do; the torques are what is then left for the motors,
-τ − Jᵀ f. So whatever a model has wrong in the wrench, its forces and torques have wrong as well.
+shared out among the contacts that stand, the least forces that do. The motors exert what is then left, τ − Jᵀ f, where
+f are the least forces of all contacts, loops and gears with which nothing is left for a joint without a motor: Jᵤᵀ f =
+τᵤ. So whatever a model has wrong in the wrench, its forces and torques have wrong as well.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from ..algorithms.centroidal import center_of_mass
 from ..algorithms.floating_base import base_placement
 from ..algorithms.kinematics import frame_jacobian, frame_placement
 from ..arrays import Array
-from ..contact import Contact, PointContact
+from ..contact import Contact, PointContact, constraint_jacobian
 from ..model import Model
 from ..motions import Motion
 from ..spatial import SE3, skew
@@ -52,29 +53,44 @@ class ReferenceMotion:
     """From a wrench on the base, in its axes, to one at the centre of mass, in the world's; shape (n, 6, 6)."""
     share: Array
     """The least forces of a unit wrench at the centre of mass: at each contact point, shape (n, points, 3, 6)."""
-    J: Array
-    """Of the contact points, shape (n, points, 3, nv)."""
+    ease: Array
+    """From torques that joints without motors would have to exert to those that contacts take from all joints instead,
+    shape (n, nv, nv)."""
     first: Array
     """Where each contact's points begin."""
     height: Array
     """Of the centre of mass above the lowest contact that stands, m, shape (n,)."""
+    pushed: Array
+    """The wrenches of the scene together, at the centre of mass, shape (n, 6)."""
 
     @classmethod
-    def of(cls, model: Model, motion: Motion, contacts: Sequence[Contact], length: float) -> ReferenceMotion:
-        """Compute what the motion needs; its feet have the soles of the contacts on the same frames."""
+    def of(
+        cls,
+        model: Model,
+        motion: Motion,
+        contacts: Sequence[Contact],
+        wrenches: Mapping[str, Array],
+        driven: Array,
+        length: float,
+    ) -> ReferenceMotion:
+        """Compute what the motion needs; its feet have the soles of the contacts on the same frames.
+
+        `driven` says which entries of v have a motor.
+        """
         q, v, a = model.state(motion.q, v=motion.v, a=motion.a)
-        whole = Articulated.of(model, model, lambda q, v: (q, v))
+        whole = Articulated.of(model, model, lambda q, v: (q, v), wrenches)
         rate, tau = whole.law(*whole.read(q, v, a))
         weight = model.mass * float(np.sqrt(model.gravity @ model.gravity))
         if weight == 0:
             weight = float(Residual(rate[..., :3], rate[..., 3:], 1.0, length).relative.max(initial=0)) or 1.0
-        given = {c.frame: c for c in contacts}
-        feet = [given.get(foot, PointContact(foot, 1.0)) for foot in motion.feet] if motion.feet else list(contacts)
-        feet = feet if model.base == "floating" else []
-        stands = motion.contacts if motion.feet else np.ones((len(q), len(feet)), bool)
+        given = {c.frame: c for c in contacts if c.pushes and c.to is None}
+        touched = {model.frame(foot).body for foot in motion.feet}
+        always = [c for c in given.values() if model.frame(c.frame).body not in touched]
+        feet = [given.get(foot, PointContact(foot, 1.0)) for foot in motion.feet] + always
+        stands = np.concatenate([motion.contacts, np.ones((len(q), len(always)), bool)], axis=1)
         owner = np.repeat(np.arange(len(feet)), [len(c.points) for c in feet])
         points, J = _points(model, q, feet)
-        on, G = stands[:, : len(feet)][:, owner], center_of_mass(model, q)
+        on, G = stands[:, owner], center_of_mass(model, q)
         share = _share((points - G[:, None]) / length, on) / np.array([length] * 3 + [1.0] * 3)
         height = np.where(on, heights(model, points, G), -np.inf).max(axis=1, initial=-np.inf)
         first = np.flatnonzero(np.diff(owner, prepend=-1))
@@ -82,7 +98,18 @@ class ReferenceMotion:
         if model.base == "floating":
             base = base_placement(model, q)
             to_G = SE3._trusted(base.rotation, base.translation - G).force_transform()
-        return cls(model, weight, length, rate, tau, on, to_G, share, J, first, height)
+        within = [c for c in contacts if not (c.pushes and c.to is None)]
+        rows = np.concatenate(
+            [(J * on[..., None, None]).reshape(len(q), -1, model.nv), _rows(model, q, within)], axis=1
+        )
+        ease = _ease(rows, ~driven, to_G / np.array([[length]] * 3 + [[1.0]] * 3) if model.base == "floating" else None)
+        pushed = np.zeros((len(q), 6))
+        for frame, wrench in wrenches.items():
+            arm = frame_placement(model, q, frame).translation - G
+            pushed += np.concatenate([wrench[:3] + np.cross(arm, wrench[3:]), np.tile(wrench[3:], (len(q), 1))], axis=1)
+        if model.base != "floating":
+            on = np.zeros_like(on)
+        return cls(model, weight, length, rate, tau, on, to_G, share, ease, first, height, pushed)
 
     @property
     def _floats(self) -> bool:
@@ -111,8 +138,11 @@ class ReferenceMotion:
             found["forces"] = np.sqrt((by_contact**2).sum(axis=-1)).max(axis=1) / self.weight
         needed = np.isin(kept, motors)
         if tau is not None and len(motors) and needed.sum() == len(motors):
-            eased = np.einsum("npik,npi->nk", self.J, f)
-            found["tau"] = np.abs(tau - self.tau[:, kept] - eased[:, kept])[:, needed].max(axis=1)
+            more = np.zeros_like(self.tau)
+            more[:, kept] = tau - self.tau[:, kept]
+            if self._floats and 0 not in kept:
+                more[:, :6] = np.linalg.solve(self.to_G, off[..., None])[..., 0]
+            found["tau"] = np.abs(more - np.matvec(self.ease, more))[:, motors].max(axis=1)
         return found
 
     def _cop_error(self, rate: Array) -> Array:
@@ -128,7 +158,7 @@ class ReferenceMotion:
         """
         g = self.model.gravity
         u = -g / np.sqrt(g @ g)
-        N, F = rate[..., :3], rate[..., 3:] - self.model.mass * g
+        N, F = rate[..., :3] - self.pushed[:, :3], rate[..., 3:] - self.model.mass * g - self.pushed[:, 3:]
         load = F @ u
         loaded = (load > MIN_LOAD_SHARE * self.weight) & self.standing.any(axis=1)
         h = np.where(loaded, self.height, 0.0)[:, None]
@@ -145,6 +175,19 @@ def _share(arm: Array, on: Array) -> Array:
     return np.asarray(
         np.linalg.pinv(np.moveaxis(columns, 1, 2).reshape(n, 6, -1), rtol=RANK_RTOL).reshape(n, points, 3, 6)
     )
+
+
+def _ease(J: Array, passive: Array, base: Array | None) -> Array:
+    """Return Jᵀ f of the least f with Jᵤᵀ f = τᵤ, as a matrix that τ is multiplied by, shape (n, nv, nv).
+
+    `base` are the rows of a wrench at the centre of mass, of the forces of a floating base: where no f does, those are
+    the errors that are least together.
+    """
+    n, _, nv = J.shape
+    taken = np.broadcast_to(np.eye(nv)[passive], (n, passive.sum(), nv)).copy()
+    if base is not None:
+        taken[:, :6, :6] = base
+    return np.asarray(J.mT @ np.linalg.pinv(taken @ J.mT, rtol=RANK_RTOL) @ taken)
 
 
 def _points(model: Model, q: Array, contacts: Sequence[Contact]) -> tuple[Array, Array]:

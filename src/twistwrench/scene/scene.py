@@ -28,9 +28,10 @@ from .arguments import (
     posture,
     whole_robot,
 )
-from .candidates import candidates, limbs, scene_candidate
+from .candidates import candidates, limbs, radius_of_gyration, scene_candidate
 from .costs import Costs, Tolerance, costs, read_tolerance
 from .dynamics import scene_dynamics, scene_quantities
+from .judging import ReferenceMotion
 from .phases import Phase, phases
 from .planar_base import PlanarBase
 from .standing import Standing, standing
@@ -392,7 +393,9 @@ class Scene:
         if "tau" in need and not needed:
             raise ValueError(f"tolerance: 'tau' is nothing of {full.name!r}: no joint of the scene has a motor")
         motors = [k for name, s in zip(full.joint_names, full.v_slice) if name in needed for k in range(full.nv)[s]]
-        ground = [c for c in self.contacts if c.to is None]
+        ground = [c for c in self.contacts if c.pushes and c.to is None]
+        borne = [*_motors(full, None)[1], *self.held]
+        driven = np.isin(np.repeat(full.joint_names, [s.stop - s.start for s in full.v_slice]), borne)
         judged, unseen = (as_motions(full, x, name) for x, name in ((motion, "motion"), (held_out, "held_out")))
         if not judged:
             raise ValueError("motion: expected at least one motion, got none")
@@ -403,9 +406,14 @@ class Scene:
             whole = len(full.joint_names) - 1
             groups = {name: joints for name, joints in limbs(full, feet).items() if len(joints) < whole}
         check_kind(groups, "groups", Mapping, "names of joints by the name of a group")
-        mine = scene_candidate(full, self.model, self._base, {*self.held, *self.idle}, self.reduce)
-        tried = [*candidates(full, judged[0].q[0], groups, ground), *mine]
-        return costs(full, judged, unseen, need, margin, tried, ground, np.array(motors, int))
+        mine = scene_candidate(full, self.model, self._base, {*self.held, *self.idle}, self.reduce, self.wrenches)
+        tried = [*candidates(full, judged[0].q[0], groups, ground, self.wrenches), *mine]
+        length = radius_of_gyration(full, judged[0].q[0])
+        judges = [
+            [ReferenceMotion.of(full, one, self.contacts, self.wrenches, driven, length) for one in some]
+            for some in (judged, unseen)
+        ]
+        return costs(full, judged, unseen, judges, need, margin, tried, np.array(motors, int))
 
     def __repr__(self) -> str:
         said = [f"{self._base} base"]

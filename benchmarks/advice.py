@@ -1,0 +1,180 @@
+"""What `tw.advise` promises, and what its answers give in new states: five robots, five uses, two tolerances each.
+
+python benchmarks/advice.py            # what is not in results/advice.json yet, three minutes; and the table of docs/trade
+python benchmarks/advice.py --anew     # all of it
+python benchmarks/advice.py --tables   # only the table
+
+The call that the advice prints is evaluated as it stands, at random states of the same kind that the advice never saw.
+What is right is computed with 3-D vectors in 45 digits (`newton_euler_3d`), that of a motion by SciPy's DOP853.
+"""
+
+from __future__ import annotations
+
+# isort: off
+import one_thread  # noqa: F401 - before NumPy
+
+# isort: on
+import argparse
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import mpmath
+import numpy as np
+from scipy.integrate import solve_ivp
+from tables import table
+
+import twistwrench as tw
+from twistwrench import newton_euler_3d as ne
+from twistwrench.advice import MM_OF_ACCELERATION, USES
+from twistwrench.simulation.growth import apart
+from twistwrench.validate.manifold import integrate
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results" / "advice.json"
+PAGES = (HERE.parent / "docs" / "trade.md", HERE.parent / "docs" / "trade.zh-CN.md")
+STATES = {"mpc": 12}
+MOST_STATES = 40
+DIGITS = 45
+mpmath.mp.dps = DIGITS
+
+ROBOTS = {
+    "go2": lambda: tw.load("go2"),
+    "z1, an arm": lambda: tw.load("z1"),
+    "baxter, with mimic joints": lambda: tw.load("baxter"),
+    "a chain of 30": lambda: tw.chain(30),
+    "a random tree of 12": lambda: tw.random_tree(12, rng=38, base="floating"),
+}
+QUESTIONS: list[tuple[str, tuple[str, str], dict[str, Any]]] = [
+    ("control", ("0.01 N m", "1e-20 N m"), {}),
+    ("mpc", ("4 digits", "1e-8 N m/rad"), {}),
+    ("sampling", ("10 mm", "1e-6 mm"), {}),
+    ("verification", ("1e-6 N m", "1e-10 N m"), {"certified": True}),
+    ("simulation", ("1 mm", "0.01 mm"), {"duration": 0.4}),
+]
+
+
+def new_states(model: tw.Model, n: int) -> list[np.ndarray]:
+    """Draw states of the kind that the advice is about, others than its own."""
+    rng = np.random.default_rng(20_26)
+    return [model.random_configuration(n, rng=rng), *rng.standard_normal((2, n, model.nv))]
+
+
+def truth(model: tw.Model, use: str, q: np.ndarray, v: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Return what is right at one state, in mpmath."""
+    if use == "sampling":
+        return ne.forward_dynamics(model, q, v, u)
+    if use == "control":
+        u = 0 * u
+    here = ne.inverse_dynamics(model, q, v, u)
+    if use != "mpc":
+        return here
+    with mpmath.workdps(2 * DIGITS):
+        h = mpmath.mpf(10) ** -DIGITS
+        steps = ne.as_mpmath(np.eye(model.nv)) * h
+        here = ne.inverse_dynamics(model, q, v, u)
+        return np.stack([(ne.inverse_dynamics(model, integrate(model, q, s), v, u) - here) / h for s in steps], axis=1)
+
+
+def errors(model: tw.Model, use: str, advice: Any) -> np.ndarray:
+    """Return how far off the call is at each new state, in the unit of the advice."""
+    states = new_states(model, STATES.get(use, MOST_STATES))
+    program = eval(advice.function, {"tw": tw, "model": model})
+    number = "float64" if advice.number == "double-double" else advice.number
+    known = dict(zip(("q", "v", "a"), states)) | {"tau": states[2]}
+    found = program(*(known[name].astype(number) for name in USES[use].arguments.split()))
+    bound = None
+    if "bound=" in advice.function:
+        found, bound = found
+    first = next(iter(vars(found).values())) if hasattr(found, "__dict__") else found
+    parts = [ne.as_mpmath(part) for part in (first if isinstance(first, tuple) else (first,))]
+    off = list[float]()
+    for k, state in enumerate(zip(*states)):
+        right = truth(model, use, *map(ne.as_mpmath, state))
+        error = abs(sum(part[k] for part in parts) - right)
+        if bound is not None and not (error <= ne.as_mpmath(bound[k])).all():
+            raise AssertionError(f"{advice.function}: a bound that is proved is exceeded in state {k}")
+        size = abs(right).max() if advice.unit == "digits" else 1
+        off.append(float(error.max() / size) * (MM_OF_ACCELERATION if use == "sampling" else 1))
+    return np.array(off)
+
+
+def distances(model: tw.Model, advice: Any, duration: float) -> np.ndarray:
+    """Return how far from where it should be each new motion ends, mm: all as one differential equation."""
+    q, v, _ = new_states(model, MOST_STATES)
+    cut, still = q.size, np.zeros_like(v)
+
+    def rates(_: float, y: np.ndarray) -> np.ndarray:
+        q, v = y[:cut].reshape(-1, model.nq), y[cut:].reshape(-1, model.nv)
+        unit = model.normalize(q)
+        q_rate = model.integrate(unit, 1e-100j * v).imag / 1e-100
+        return np.concatenate([q_rate.ravel(), tw.fast.aba(model, unit, v, still).ravel()])
+
+    start = np.concatenate([q.ravel(), v.ravel()])
+    end = solve_ivp(rates, (0, duration), start, method="DOP853", rtol=1e-12, atol=1e-12).y[:cut, -1]
+    motion = eval(advice.function, {"tw": tw, "model": model, "q": q, "v": v})
+    return apart(model, motion.q[-1], model.normalize(end.reshape(q.shape)))
+
+
+def ask(robot: str, use: str, within: str, options: dict[str, Any]) -> dict[str, Any]:
+    """Return what is promised and what is found."""
+    model = ROBOTS[robot]()
+    decision = tw.advise(model, use, within=within, rounds=1, **options)
+    best = decision.best
+    if best is None:
+        return {"choice": "nothing: " + decision.instead}
+    off = distances(model, best, **options) if "duration" in options else errors(model, use, best)
+    return {
+        "choice": best.function,
+        "unit": best.unit,
+        "allowed": decision.within,
+        "promised": best.error,
+        "found": off.max(),
+        "states": len(off),
+        "below the promise": int((off <= best.error).sum()),
+        "below what is allowed": int((off <= decision.within).sum()),
+    }
+
+
+def measured(before: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield what is not known yet, with the key of its line."""
+    for robot in ROBOTS:
+        for use, tolerances, options in QUESTIONS:
+            for within in tolerances:
+                key = f"{robot} | {use} | {within}"
+                if key not in before:
+                    found = ask(robot, use, within, options)
+                    print(f"{key} | {found}", flush=True)
+                    yield key, found
+
+
+def tables() -> dict[str, str]:
+    """Return the table."""
+    found = json.loads(RESULTS.read_text(encoding="utf-8"))
+    return {"advice": table(cell for key, row in found.items() for cell in _cells(key, row))}
+
+
+def _cells(key: str, row: dict[str, Any]) -> Iterator[tuple[str, str, str]]:
+    yield key, "choice", f"`{row['choice']}`"
+    for name in ("promised", "found") if "found" in row else ():
+        yield key, name, f"{row[name]:.1e}"
+    if "found" in row:
+        yield key, "states within", f"{row['below the promise']} of {row['states']}"
+
+
+def main() -> None:
+    """Run what is asked for."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--anew", action="store_true", help="measure all, and not what is missing")
+    parser.add_argument("--tables", action="store_true", help="only the table, from results/")
+    args = parser.parse_args()
+    found = {} if args.anew or not RESULTS.exists() else json.loads(RESULTS.read_text(encoding="utf-8"))
+    for key, row in () if args.tables else measured(found):
+        found[key] = row
+        RESULTS.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    # write(PAGES, tables())
+
+
+if __name__ == "__main__":
+    main()
