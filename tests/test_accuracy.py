@@ -291,7 +291,9 @@ def test_where_nothing_is_certain_the_estimate_is_infinite_and_names_the_joint()
     assert known.digits["aba"] == 0
     assert known.weak == ("body_0006",)
     assert "aba none" in str(known)
-    assert str(known).endswith("A motion of 'body_0006' has 0.0e+00 of the apparent inertia of its parts one by one.")
+    assert "\nA motion of 'body_0006' has 0.0e+00 of the apparent inertia of its parts one by one.\n" in str(known)
+    (loss,) = known.losses
+    assert (loss.cause, loss.joints, loss.digits, loss.lines) == ("no inertia", ("body_0006",), np.inf, "")
 
 
 def test_it_names_the_joints_that_move_against_each_other():
@@ -347,3 +349,36 @@ def test_its_mass_matrix_is_that_of_crba(seed):
     q = np.stack([model.random_configuration(rng=rng) for _ in range(2)])
     M = tw.crba(model, q)
     assert np.allclose(error_bounds._mass_matrix(model, q), M, rtol=0, atol=1e-14 * np.abs(M).max())
+
+
+# ---------------------------------------------------------------- what to do
+
+
+def test_it_says_of_each_section_of_the_page_what_to_do():
+    bent, still = np.linspace(0.1, 1, 10), np.zeros(10)
+    assert [x.cause for x in tw.accuracy(tw.chain(10, mass_ratio=1e-9), bent).elsewhere] == ["condition of M"]
+    heavy = tw.chain(10, mass_ratio=1e9)
+    steered = tw.accuracy(heavy, bent, still, tw.rnea(heavy, bent, still, np.ones(10)))
+    assert [x.cause for x in steered.losses] == ["weak motion", "rounded tau"]
+    assert [x.cause for x in tw.accuracy(heavy, bent, still, np.array([1.0, -1.0] * 5)).losses] == ["weak motion"]
+    (single,) = tw.accuracy(tw.chain(64), np.zeros(64, np.float32)).losses
+    assert "float64 keeps all 7" in single.cure
+    go2, q = shared("go2"), shared("go2").standing()
+    q[0] = 1e4
+    assert [x.cause for x in tw.accuracy(go2, q).elsewhere] == ["sums in the world"]
+    fast = np.r_[0.1, -0.2, 0.3, 1e6, 2e6, -3e6, np.zeros(12)]
+    assert [x.cause for x in tw.accuracy(go2, go2.standing(), fast).elsewhere] == ["v × m v"]
+    body = tw.SpatialInertia(2.0, [0, 0, 0.1], np.diag([0.02, 0.02, 0.01]))
+    far = one_body(tw.Revolute("z"), body.transform(tw.SE3(np.eye(3), [1e6, 0, 0])))
+    assert [x.cause for x in tw.accuracy(far, [0.3]).elsewhere] == ["matrix of a far body"]
+    model, q, v, tau = fan(1047.0, 1e-4)
+    assert [(x.cause, x.joints) for x in tw.accuracy(model, q, v, tau).losses] == [("terms that cancel", ("body",))]
+
+
+def test_a_body_far_out_on_an_oblique_axis_costs_digits():
+    """M is 0.1 kg m², the sum of terms of m c² = 1e8 kg m²: eight digits of it cancel."""
+    n = np.array([1.0, 2.0, 2.0]) / 3
+    model = one_body(tw.Revolute(n), tw.SpatialInertia(1.0, 1e4 * n, 0.1 * np.eye(3)))
+    known, error = tw.accuracy(model, [0.3]), abs(tw.crba(model, [0.3])[0, 0] / 0.1 - 1)
+    assert 1e-12 < error < known.aba < 1e-6
+    assert [(x.cause, x.joints) for x in known.losses] == [("terms of M", ("body",))]

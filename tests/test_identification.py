@@ -1,4 +1,4 @@
-"""Which combinations of the inertial parameters can be told: published counts, a rule by hand, exact ranks, Pinocchio."""
+"""Which combinations of inertial parameters can be told: published counts, a rule by hand, exact ranks, Pinocchio."""
 
 from fractions import Fraction
 
@@ -68,7 +68,12 @@ def test_of_a_planar_arm_the_combinations_are_those_of_the_textbook():
             row[number[name]] = x
     np.testing.assert_allclose(base.combinations, expected, rtol=0, atol=1e-12)
     flat = tw.base_parameters(planar_2r([0, 0, -9.81]))
-    assert [base.names[k] for k in flat.independent] == ["Izz of first", "mx of second", "my of second", "Izz of second"]
+    assert [base.names[k] for k in flat.independent] == [
+        "Izz of first",
+        "mx of second",
+        "my of second",
+        "Izz of second",
+    ]
     assert flat.combinations[0, number["m of second"]] == pytest.approx(l * l, rel=1e-12)
     assert "Izz of first + 0.49 m of second + Izz of second" not in str(flat)  # that is another parameter
 
@@ -87,7 +92,7 @@ def test_the_rule_of_mayeda_for_arms_of_hinges(upright, n):
 
 
 def moved_through(joint):
-    """How many inertias act the same on either side of a joint: those that feel no motion of it, and stay when turned."""
+    """How many inertias act alike on both sides of a joint: those that feel no motion of it, and stay when turned."""
     S, rng = joint.subspace(), np.random.default_rng(0)
     rows = []
     for _ in range(6):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 from html import escape
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -187,7 +187,8 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     least eigenvalue of D^-½ M D^-½ with the diagonal D of M, plus the error of the bias forces. The condition number of
     M itself is misleading: different units or masses make it large, but they do not cause errors. For the worst
     torques, `aba` loses as many digits as a solver, and more where a ball joint carries a thin rod: it eliminates three
-    directions together, of which one has little inertia.
+    directions together, of which one has little inertia. Where free or ball joints inside a tree carry bodies that
+    differ by 1e8 and more, one error in fifty was above the estimate, by up to 40 times; elsewhere none was.
 
     Where the terms of M_jj are much larger than their sum, as of a body far out on an oblique axis, they cost digits.
     The error of the bias forces is relative to their terms, lever times force. Where v is given, it is compared with q̈,
@@ -203,7 +204,7 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     >>> print(tw.accuracy(model, np.full(6, 0.1)))
     rnea keeps 13 of 16 digits, aba 8, crba + solve 8.
     Moved against each other, 'rod_02', 'rod_03', 'rod_01' have ... of their apparent inertias one by one.
-    Lost by weak motion (rod_02, rod_03, rod_01), 6 digits: a program in double-double keeps all 16 ...
+    Lost by weak motion (rod_02, rod_03, rod_01), 7 digits: a program in double-double keeps all 16:...
 
     A fan of an oblique axis turns at 10 000 rpm, and 0.1 mN m drive it:
 
@@ -212,7 +213,7 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     >>> fan.link("disc", parent="base_link", joint=tw.Revolute(n), inertia=disc)
     >>> print(tw.accuracy(fan.build(), [0.3], [1047.0], [1e-4]))
     rnea keeps 14 of 16 digits, aba 9, crba + solve 9.
-    Lost by terms that cancel (disc), 4 digits: a program in double-double keeps all 16 ...
+    Lost by terms that cancel (disc), 4 digits: a program in double-double keeps all 16:...
     """
     given, rates, torques = _state(model, q, v, tau)
     eps = resolution(given.dtype)
@@ -487,7 +488,8 @@ def _cure(determined: bool, error: float, eps: float) -> tuple[str, str]:
         return "M is singular to the rounding of doubles; 80 digits of newton_euler_3d tell whether q̈ exists", IN_MPMATH
     if error * double / eps < eps:  # of a number type with fewer digits
         return f"float64 keeps all {whole}, at the same cost", IN_FLOAT64
-    return f'a program in double-double keeps all {min(whole, 16)}: tw.compile(model, "aba", dtype="double-double")', IN_PAIRS
+    whole = min(whole, 16)
+    return f'a program in double-double keeps all {whole}: tw.compile(model, "aba", dtype="double-double")', IN_PAIRS
 
 
 def _elsewhere(state: _State, M: Array, least: float) -> tuple[Loss, ...]:
@@ -497,7 +499,7 @@ def _elsewhere(state: _State, M: Array, least: float) -> tuple[Loss, ...]:
     IC = composite_inertias(tree)
     placed = forward_kinematics(model, state.q).placement
     turning = [(i, k) for i in range(1, model.nbodies) for k in range(*model.v_slice[i].indices(model.nv))]
-    sizes = [IC[i][5, 5] * (placed[i].translation**2).sum() / own[k] for i, k in turning if own[k] > 0]
+    sizes = [IC[i][5, 5] * (placed[i].translation ** 2).sum() / own[k] for i, k in turning if own[k] > 0]
     if sizes and max(sizes) > 10**NAMED_DIGITS:
         cure = "put the base at the origin for a library that sums there: M, h and A_G do not depend on its place"
         found.append(Loss("sums in the world", (), float(np.log10(max(sizes))), cure))
@@ -515,6 +517,6 @@ def _elsewhere(state: _State, M: Array, least: float) -> tuple[Loss, ...]:
         moments = np.linalg.eigvalsh(I.inertia_at_com)
         excess = float(I.mass * (I.com**2).sum())
         if excess > 10**NAMED_DIGITS * moments[-1] > 0:
-            cure = "keep the ten numbers: SpatialInertia.from_matrix cannot bring back the inertia at the centre of mass"
+            cure = "keep the ten numbers: SpatialInertia.from_matrix cannot bring back that at the centre of mass"
             found.append(Loss("matrix of a far body", (name,), float(np.log10(excess / moments[-1])), cure))
     return tuple(found)

@@ -157,7 +157,7 @@ def test_where_the_parts_of_a_body_are_not_known_it_is_said():
     go2 = shared("go2")
     rest = np.zeros(18)
     for model in (tw.reroot(go2, "FL_foot").model, replace(go2, inertia=(go2.inertia[0], *[TOOL] * 13))):
-        with pytest.raises(tw.ModelError, match="'FL_foot'.*beyond it is not known"):
+        with pytest.raises(tw.ModelError, match=r"'FL_foot'.*beyond it is not known"):
             tw.frame_wrench(model, model.neutral(), rest, rest, "FL_foot")
     with pytest.raises(tw.NameNotFound, match="FL_foo"):
         tw.frame_wrench(go2, go2.neutral(), rest, rest, "FL_foo")

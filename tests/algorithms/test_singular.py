@@ -132,6 +132,15 @@ def slide(mass):
     return builder.build()
 
 
+@pytest.mark.parametrize("backend", ["llvm", "numpy"])
+def test_a_program_says_of_a_link_without_weight_what_the_textbook_says(backend):
+    robot = tw.Builder("tiny")
+    link = tw.SpatialInertia(1e-320, [0, 0, 1], np.zeros((3, 3)))
+    robot.link("link", parent="base_link", joint=tw.Revolute("x"), inertia=link)
+    with pytest.raises(tw.SingularError, match=r"'link'.*beyond rounding"):
+        tw.compile(robot.build(), "aba", backend=backend)([0.1], [0.2], [0.3])
+
+
 @pytest.mark.parametrize("mass", [1e-320, 1e-308])
 @pytest.mark.parametrize(
     "function",

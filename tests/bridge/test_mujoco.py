@@ -243,3 +243,12 @@ def test_gravity_that_is_disabled_is_none_and_a_fluid_is_reported():
     assert not here.gravity.any()
     found = [entry.found for entry in here.report]
     assert {"a fluid of density 1.2", "a fluid of viscosity 2e-05"} <= {*found}
+
+
+@pytest.mark.parametrize("off", ["damper", "frictionloss", "limit"])
+def test_what_the_file_switches_off_is_not_there(off):
+    xml = f"""<mujoco><option><flag {off}="disable"/></option><worldbody><body><joint name="h" axis="0 1 0" damping="2"
+    frictionloss="3" range="-57 57" limited="true"/><geom size="0.1" mass="2"/></body></worldbody></mujoco>"""
+    model = bridge.from_mujoco_model(mujoco.MjModel.from_xml_string(xml))
+    found = {"damper": model.damping[0], "frictionloss": model.friction[0], "limit": float(np.isfinite(model.upper[0]))}
+    assert [name for name, x in found.items() if not x] == [off]

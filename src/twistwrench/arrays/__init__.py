@@ -25,6 +25,7 @@ from .conversion import (
     as_number,
     as_number_array,
     as_number_arrays,
+    check_batches,
     resolution,
     tolerance,
 )
@@ -48,6 +49,7 @@ __all__ = [
     "as_real",
     "as_sequence",
     "beside",
+    "check_batches",
     "check_choice",
     "check_kind",
     "check_overflow",

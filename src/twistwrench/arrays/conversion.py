@@ -30,6 +30,7 @@ __all__ = [
     "as_number",
     "as_number_array",
     "as_number_arrays",
+    "check_batches",
     "resolution",
     "tolerance",
 ]
@@ -104,6 +105,12 @@ def as_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:
             where = tuple(int(k) for k in np.argwhere(~np.isfinite(x))[0])
             raise ValueError(f"{name}: expected finite numbers, got {x[where]} at index {where}")
     return tuple(arrays.values())
+
+
+def check_batches(what: str, first: tuple[int, ...], second: tuple[int, ...]) -> None:
+    """Raise ShapeError where the batch axes of two arguments do not broadcast; `what` names the two."""
+    if first != second and any(a != b and 1 not in (a, b) for a, b in zip(first[::-1], second[::-1])):
+        raise ShapeError(f"{what}: batch axes {first} and {second} do not broadcast")
 
 
 def as_number_arrays(**named: tuple[ArrayLike, tuple[int, ...]]) -> tuple[Array, ...]:

@@ -22,7 +22,7 @@ from .spatial import HALVES
 __all__ = ["from_mujoco_model"]
 
 FREE, BALL, SLIDE = 0, 1, 2
-GRAVITY_DISABLED = 1 << 7
+FRICTIONLOSS_DISABLED, LIMIT_DISABLED, DAMPER_DISABLED, GRAVITY_DISABLED = 1 << 2, 1 << 3, 1 << 6, 1 << 7
 LEFT_OUT = {
     "neq": "equality constraints",
     "ntendon": "tendons",
@@ -134,7 +134,7 @@ def _back(there: Any, j: int, joint: Joint) -> SE3:
 def _limits(there: Any, j: int) -> Array:
     """Return the lower and the upper limits, shape (2, nq of the joint)."""
     one = there.jnt_type[j] >= SLIDE
-    if one and there.jnt_limited[j]:
+    if one and there.jnt_limited[j] and not there.opt.disableflags & LIMIT_DISABLED:
         return np.array(there.jnt_range[j])[:, None]
     return np.outer([-np.inf, np.inf], np.ones(_joint(there, j).nq))
 
@@ -157,10 +157,11 @@ def _frames(there: Any, names: list[str], carrier: list[int], at: list[SE3]) -> 
 def _per_dof(there: Any, names: list[str], joints: list[Joint | None], drives: Drives) -> dict[str, Any]:
     """Return armature, damping, friction and limits of effort in our order; MuJoCo's free joints begin with v."""
     order = np.arange(there.nv)
+    off = there.opt.disableflags
     sums = {
         "armature": there.dof_armature + drives.armature,
-        "damping": there.dof_damping + drives.damping,
-        "friction": there.dof_frictionloss,
+        "damping": there.dof_damping * (not off & DAMPER_DISABLED) + drives.damping,
+        "friction": there.dof_frictionloss * (not off & FRICTIONLOSS_DISABLED),
         "effort_limit": drives.effort_limit,
     }
     arrays: dict[str, Any] = {}

@@ -56,8 +56,9 @@ class _Internal(Contact):
 class LoopClosure(_Internal):
     """Two frames of one robot that stay together: as a ball joint does, as a hinge does, or welded.
 
-    A frame's origin, or all of it, keeps its place in the frame `to`; with an axis it turns about that alone. A tree of bodies becomes a loop: a four-bar, a
-    box that two hands hold. λ acts on `frame`, in the axes of `to`, and the opposite wrench on `to` at the same point.
+    A frame's origin, or all of it, keeps its place in the frame `to`; with an axis it turns about that alone. A tree of
+    bodies becomes a loop: a four-bar, a box that two hands hold. λ acts on `frame`, in the axes of `to`, and the
+    opposite wrench on `to` at the same point.
 
     Parameters
     ----------

@@ -329,8 +329,11 @@ class Program:
         filled = {name: x.reshape(batch + tails[name]) for name, x in rows.items()}
         unsure = np.ones(batch, bool)
         if code is not None:
-            unsure = ~(code.results(states, batch, self.threads, rows)[ALARM].real <= 1)
-            self._remember(code, states, batch)
+            try:
+                unsure = ~(code.results(states, batch, self.threads, rows)[ALARM].real <= 1)
+                self._remember(code, states, batch)
+            except OverflowError:  # a constant is beyond the largest double: the textbook says what is wrong
+                pass
         if unsure.any():
             by_the_textbook(self.model, self.quantities, self.given | states, filled, unsure)
         return self.packed(finish(given, filled))

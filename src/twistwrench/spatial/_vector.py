@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Literal, NoReturn, Self
 import numpy as np
 from numpy.typing import ArrayLike, DTypeLike
 
-from ..arrays import Array, as_arrays, as_number_array, as_number_arrays, check_overflow
+from ..arrays import Array, as_arrays, as_number_array, as_number_arrays, check_batches, check_overflow
 from ..errors import FrameError, SingularError, unknown_name
 from ._elementary import at_first_index, length
 
@@ -146,12 +146,16 @@ class SpatialVector:
         if not isinstance(other, SpatialVector):
             self._refuse(self, "+", other)
         frame = common_frame(self, "+", other)
+        both = f"{type(self).__name__} + {type(other).__name__}"
+        check_batches(both, self._vector.shape[:-1], other._vector.shape[:-1])
         return type(self)(self._vector + other._vector, frame=frame)
 
     def __sub__(self, other: object) -> Self:
         if not isinstance(other, SpatialVector):
             self._refuse(self, "-", other)
         frame = common_frame(self, "-", other)
+        both = f"{type(self).__name__} - {type(other).__name__}"
+        check_batches(both, self._vector.shape[:-1], other._vector.shape[:-1])
         return type(self)(self._vector - other._vector, frame=frame)
 
     def __radd__(self, other: object) -> Self:
@@ -187,6 +191,7 @@ class SpatialVector:
         if type(scalar) in (int, float, complex):
             scalar = np.asarray(scalar, np.result_type(self._vector, scalar))
         s, x = as_number_arrays(scalar=(scalar, ()), vector=(self._vector, (6,)))
+        check_batches(f"number and {type(self).__name__}", s.shape, x.shape[:-1])
         return s[..., None], x
 
     def __matmul__(self, other: object) -> Any:

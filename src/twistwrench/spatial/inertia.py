@@ -24,6 +24,7 @@ from ..arrays import (
     as_number_array,
     as_number_arrays,
     as_real,
+    check_batches,
     check_overflow,
     check_size,
     comparable,
@@ -329,6 +330,7 @@ class SpatialInertia:
         array([1., 0., 0.])
         """
         check_placement(T)
+        check_batches("SE3 and SpatialInertia", T.translation.shape[:-1], self.mass.shape)
         turned = T.rotation @ self.inertia_at_com @ T.rotation.mT
         com = place_point(T.rotation, T.translation, self.com)
         mass = np.broadcast_to(self.mass.astype(com.dtype), com.shape[:-1])
@@ -391,6 +393,7 @@ class SpatialInertia:
             raise TypeError(f"SpatialInertia + {type(other).__name__}: only inertias add, once they are in one frame")
         m1 = self.mass
         m2 = other.mass
+        check_batches("SpatialInertia + SpatialInertia", m1.shape, m2.shape)
         m = self.mass + other.mass
         nonzero = np.where(m == 0, 1, m)
         com = np.asarray(m1 / nonzero)[..., None] * self.com + np.asarray(m2 / nonzero)[..., None] * other.com
@@ -409,6 +412,7 @@ class SpatialInertia:
         if not isinstance(other, SpatialInertia):
             raise TypeError(f"SpatialInertia - {type(other).__name__}: only inertias subtract, in one frame")
         m1, m2 = self.mass, other.mass
+        check_batches("SpatialInertia - SpatialInertia", m1.shape, m2.shape)
         apart = self.com - other.com
         m = np.asarray(m1 - m2)
         nothing = np.asarray(comparable(m1) == comparable(m2))
@@ -452,6 +456,7 @@ class SpatialInertia:
         a, m, c, I_c = as_number_arrays(
             scale=(scale, ()), mass=(self.mass, ()), com=(self.com, (3,)), inertia_at_com=(self.inertia_at_com, (3, 3))
         )
+        check_batches("scale and SpatialInertia", a.shape, m.shape)
         negative = np.asarray(comparable(a) < 0)
         if negative.any():
             raise ModelError(
@@ -543,6 +548,7 @@ class SpatialInertia:
     def _velocity_of_com(self, V: ArrayLike) -> tuple[Array, Array]:
         """Return ω and the velocity v + ω×c of the centre of mass, over the batch axes of both."""
         V = as_spatial(V, "V")
+        check_batches("SpatialInertia and V", self.mass.shape, V.shape[:-1])
         v_c = V[..., 3:] + np.cross(V[..., :3], self.com)
         return np.broadcast_to(V[..., :3], v_c.shape), v_c
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_number_array, as_number_arrays, tolerance
+from ..arrays import Array, as_array, as_number_array, as_number_arrays, check_batches, tolerance
 from ..errors import ShapeError
 from ._elementary import at_first_index, largest
 from ._vector import align_digits, latex_matrix
@@ -206,6 +206,7 @@ class SE3:
             use = "T.act(x) for points, T.motion_transform() @ x for twists, T.force_transform() @ x for wrenches"
             use = use if name is None else f"{name}.transform(T)"
             raise TypeError(f"SE3 @ {type(other).__name__}: only placements are chained with @; use {use}")
+        check_batches("SE3 @ SE3", self.translation.shape[:-1], other.translation.shape[:-1])
         p = place_point(self.rotation, self.translation, other.translation)
         return SE3._trusted(self.rotation @ other.rotation, p)
 
@@ -240,14 +241,16 @@ class SE3:
         Raises
         ------
         ShapeError
-            If the last axis is not 3 long.
+            If the last axis is not 3 long, or the batch axes do not broadcast.
 
         Examples
         --------
         >>> SE3(np.eye(3), [1, 0, 0]).act([0, 2, 0])
         array([1., 2., 0.])
         """
-        return place_point(self.rotation, self.translation, as_number_array(point, "point", 3))
+        point = as_number_array(point, "point", 3)
+        check_batches("SE3 and point", self.translation.shape[:-1], point.shape[:-1])
+        return place_point(self.rotation, self.translation, point)
 
     def motion_transform(self) -> Array:
         """Return X, which takes twists from B to A, shape (..., 6, 6): see `motion_transform`.

@@ -82,7 +82,11 @@ def unskew(M: ArrayLike) -> Array:
     >>> unskew([[0, -3, 2], [3, 0, -1], [-2, 1, 0]])
     array([1., 2., 3.])
     """
-    M = as_array(M, "M", 3, 3)
+    M = as_number_array(M, "M", 3, 3)
+    if M.dtype == object:  # exact: what is written down must cancel
+        if (M + M.mT != 0).any():
+            raise ShapeError("M: expected a skew-symmetric matrix, got |M + Mᵀ| that is not zero")
+        return np.stack([M[..., 2, 1], M[..., 0, 2], M[..., 1, 0]], axis=-1)
     off = largest((M / 2 + M.mT / 2).real, 2)
     wrong = off > tolerance(M.dtype) * largest(M.real, 2) / 2
     if wrong.any():

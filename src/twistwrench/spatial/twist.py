@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_array, as_number, check_overflow, tolerance
+from ..arrays import Array, as_array, as_number, as_number_array, check_batches, check_overflow, tolerance
 from ..errors import ShapeError, SingularError
 from ._elementary import at_first_index, largest, length
 from ._vector import SpatialVector, as_spatial
@@ -107,7 +107,11 @@ def vee(M: ArrayLike) -> Array:
     >>> vee(hat([1, 2, 3, 4, 5, 6]))
     array([1., 2., 3., 4., 5., 6.])
     """
-    M = as_array(M, "M", 4, 4)
+    M = as_number_array(M, "M", 4, 4)
+    if M.dtype == object:
+        if (M[..., 3, :] != 0).any():
+            raise ShapeError("M: expected a last row of zeros")
+        return np.concatenate([unskew(M[..., :3, :3]), M[..., :3, 3]], axis=-1)
     off = largest(M[..., 3, :].real, 1)
     wrong = off > tolerance(M.dtype) * largest(M.real, 2)
     if wrong.any():
@@ -244,6 +248,7 @@ class Twist(SpatialVector):
         Twist([0.0, 0.0, 1.0, 0.0, -1.0, 0.0], frame='world')
         """
         check_placement(T)
+        check_batches("SE3 and Twist", T.translation.shape[:-1], self._vector.shape[:-1])
         return Twist(np.matvec(T.motion_transform(), self._vector), frame=frame)
 
     def screw(self) -> Screw:

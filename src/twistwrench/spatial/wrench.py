@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, as_number_arrays, check_overflow, without_overflow
+from ..arrays import Array, as_number_arrays, check_batches, check_overflow, without_overflow
 from ..errors import SingularError
 from ._vector import SpatialVector, as_spatial, common_frame
 from .rotation import cross_matrix
@@ -51,6 +51,7 @@ def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
     if isinstance(F, SpatialVector) and isinstance(V, SpatialVector):
         common_frame(F, "·", V)
     f, v = as_number_arrays(F=(as_spatial(F, "F"), (6,)), V=(as_spatial(V, "V"), (6,)))
+    check_batches("F and V", f.shape[:-1], v.shape[:-1])
     return np.asarray((f * v).sum(-1))
 
 
@@ -152,6 +153,7 @@ class Wrench(SpatialVector):
         Wrench([0.0, -5.0, 0.0, 0.0, 0.0, 10.0], frame='world')
         """
         check_placement(T)
+        check_batches("SE3 and Wrench", T.translation.shape[:-1], self._vector.shape[:-1])
         return Wrench(np.matvec(T.force_transform(), self._vector), frame=frame)
 
     def screw(self) -> Screw:
