@@ -213,7 +213,7 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     >>> fan.link("disc", parent="base_link", joint=tw.Revolute(n), inertia=disc)
     >>> print(tw.accuracy(fan.build(), [0.3], [1047.0], [1e-4]))
     rnea keeps 14 of 16 digits, aba 9, crba + solve 9.
-    Lost by terms that cancel (disc), 4 digits: a program in double-double keeps all 16:...
+    Lost by terms that cancel (disc), 5 digits: a program in double-double keeps all 16:...
     """
     given, rates, torques = _state(model, q, v, tau)
     eps = resolution(given.dtype)
