@@ -1,6 +1,6 @@
 """What `tw.advise` promises, and what its answers give in new states: five robots, five uses, two tolerances each.
 
-python benchmarks/advice.py            # what is not in results/advice.json yet, three minutes; and the table of docs/trade
+python benchmarks/advice.py            # what is not in results/advice.json yet, and the table of docs/trade
 python benchmarks/advice.py --anew     # all of it
 python benchmarks/advice.py --tables   # only the table
 

@@ -1,6 +1,6 @@
-"""Scenes in which a smaller model may do: six of a practitioner and six more, each with motions for the choice and others.
+"""Scenes in which a smaller model may do: six of a practitioner and six more, with motions to choose by and others.
 
-A motion gives the joints that have motors a course, and the rest moves as it must: without torque (`follow`).
+Joints that have motors go on a course, and the rest moves as it must: without torque (`follow`).
 """
 
 from __future__ import annotations
@@ -14,18 +14,19 @@ import numpy as np
 import twistwrench as tw
 from twistwrench import motions
 from twistwrench.motions import Motion
+from twistwrench.spatial.rotation import rotation_to_quaternion
 
 Course = Callable[[float], tuple[float, float, float]]
 
 
 class Case(NamedTuple):
-    """A scene, what is needed of a model, the motions that decide, others, and what else `cheapest` is told."""
+    """A scene, what is needed of a model, the motions that decide, others, and the joints that may be held."""
 
     scene: tw.Scene
     need: dict[str, Any]
     judged: Sequence[Motion]
     unseen: Sequence[Motion]
-    options: dict[str, Any] = {}
+    groups: dict[str, list[str]] | None = None
 
 
 def wave(middle: float, size: float, hertz: float, phase: float = 0.0) -> Course:
@@ -74,6 +75,18 @@ def with_passive(model: tw.Model, motion: Motion, passive: str) -> Motion:
     return replace(motion, **dict(zip("qva", map(np.stack, zip(*rows)))))
 
 
+def shaken(model: tw.Model, motion: Motion, entry: int, course: Course) -> Motion:
+    """Return the motion of a floating robot on what moves in the world, along x (0) to z (2)."""
+    q, v, a = motion.q.copy(), motion.v.copy(), motion.a.copy()
+    for k, t in enumerate(motion.t):
+        moved, speed, more = course(t)
+        R = tw.frame_placement(model, q[k], model.frame_names[1]).rotation.T
+        q[k, entry] += moved
+        v[k, 3:6] += speed * R[:, entry]
+        a[k, 3:6] += more * R[:, entry] - np.cross(v[k, :3], speed * R[:, entry])
+    return replace(motion, q=q, v=v, a=a)
+
+
 def box(mass: float, sides: tuple[float, float, float], name: str) -> tw.Model:
     """Return a body that floats."""
     return tw.Builder(name, base="floating", root_inertia=tw.SpatialInertia.from_box(mass, sides)).build()
@@ -91,21 +104,245 @@ def bucket_on_a_go2() -> Case:
     model = tw.attach(go2, bail.build(), "base", placement=tw.SE3(np.eye(3), [-0.25, 0, 0.2]))
     feet = [tw.PointContact(foot, mu=0.7) for foot in go2.feet]
     judged = motions.walk(go2, samples=100)
-    unseen = motions.walk(go2, samples=100, speed=0.4)
+    unseen = motions.walk(go2, samples=100, speed=0.08, direction=0.4)
     some = [with_passive(model, motion, "pail") for motion in (judged, unseen)]
     return Case(tw.Scene(model, contacts=feet), {"tau": 0.5}, some[:1], some[1:])
 
 
+def sitting_humanoid_that_waves() -> Case:
+    """Build a humanoid on a stool that waves one arm: all its torques are needed, though few of them change."""
+    model = tw.load("humanoid")
+    touch = [tw.SurfaceContact(frame, (0.1, 0.05), 0.7) for frame in ("pelvis", "left_sole", "right_sole")]
+    q = model.neutral()
+    arms = [waving(model, q, "left", hertz) for hertz in (0.5, 0.8)]
+    return Case(tw.Scene(model, contacts=touch, q=q), {"tau": 0.5}, arms[:1], arms[1:])
+
+
+def waving(model: tw.Model, q: np.ndarray, side: str, hertz: float) -> Motion:
+    """Return a motion of one arm."""
+    elbow, shoulder = f"{side}_elbow", f"{side}_shoulder_roll"
+    return follow(model, q, {elbow: wave(-0.8, 0.5, hertz), shoulder: wave(0.4, 0.3, hertz, 1.0)})
+
+
+def satellite_with_a_wrist() -> Case:
+    """Build a body without weight and with an arm, whose wrist turns fast: the base gives way."""
+    hull = tw.SpatialInertia.from_box(50, [1, 1, 1])
+    builder = tw.Builder("satellite", base="floating", gravity=[0, 0, 0], root_inertia=hull)
+    rod = tw.SpatialInertia.from_rod(3.0, 0.8).transform(tw.SE3(np.eye(3), [0, 0, 0.4]))
+    hand = tw.SpatialInertia.from_box(1.0, [0.1, 0.3, 0.1]).transform(tw.SE3(np.eye(3), [0, 0.1, 0.05]))
+    links = [
+        ("upper", "base_link", 0.5, "y", rod),
+        ("lower", "upper", 0.8, "y", rod),
+        ("wrist", "lower", 0.8, "x", hand),
+    ]
+    for name, on, z, axis, inertia in links:
+        at = tw.SE3(np.eye(3), [0, 0, z])
+        builder.link(name, parent=on, joint=tw.Revolute(axis), inertia=inertia, placement=at)
+    model = builder.build()
+    some = [
+        follow(
+            model,
+            model.neutral(),
+            {"upper": wave(0.3, 0.4, f), "lower": wave(0.8, 0.6, f), "wrist": wave(0, 1.0, 2 * f)},
+            model.joint_names[1:2],
+        )
+        for f in (0.4, 0.6)
+    ]
+    need = {"tau": 0.1, "of": ["upper", "lower"]}
+    return Case(tw.Scene(model), need, some[:1], some[1:], {"wrist": ["wrist"], "arm": ["upper", "lower", "wrist"]})
+
+
+def humanoid_on_a_platform() -> Case:
+    """Build a humanoid that waves on a platform, which moves to and fro by 5 mm."""
+    model = tw.load("humanoid")
+    soles = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), 0.7) for side in ("left", "right")]
+    q = model.standing()
+    some = [shaken(model, waving(model, q, "right", f), 0, wave(0, 0.005, 4 * f)) for f in (0.5, 0.7)]
+    return Case(
+        tw.Scene(model, contacts=soles),
+        {"cop": 0.01, "tau": 1.5, "of": ["*_hip_*", "*_knee", "*_ankle_*"]},
+        some[:1],
+        some[1:],
+    )
+
+
 def tool_in_two_fingers() -> Case:
-    """Build an arm that holds a tool with two fingers: a closed loop, whose tool is a body of its own."""
+    """Build an arm whose fingers hold a tool, a body of its own: a closed loop, in which the tool has no motor."""
     arm = tw.load("panda")
     q = arm.integrate(arm.neutral(), np.r_[0, 0.3, 0, -1.5, 0, 1.8, 0.5, 0.02, 0.02])
-    tool = box(0.8, (0.04, 0.04, 0.2), "tool")
-    both = tw.attach(arm, tool, None, prefix="t_")
-    ends = ["panda_leftfinger", "panda_rightfinger"]
-    return both, q, ends
+    both = tw.attach(arm, box(0.8, (0.04, 0.04, 0.2), "tool"), None, prefix="t_")
+    grip = tw.SE3(np.eye(3), [0, 0, 0.08])
 
+    def motion(hertz: float) -> Motion:
+        courses = {f"panda_joint{k}": wave(q[k - 1], 0.2, hertz, k) for k in (2, 4, 6)} | {
+            "panda_joint7": wave(0.5, 0.4, 2 * hertz)
+        }
+        mine = follow(arm, q, courses)
+        T = tw.frame_placement(arm, mine.q, "panda_hand") @ grip
+        X = grip.inverse().motion_transform()
+        J = X @ tw.frame_jacobian(arm, mine.q, "panda_hand", "local")
+        bias = np.matvec(X, tw.frame_bias_acceleration(arm, mine.q, mine.v, "panda_hand", "local"))
+        turn = rotation_to_quaternion(T.rotation)
+        poses = np.concatenate([mine.q, T.translation, turn], axis=1)
+        speeds = np.concatenate([mine.v, np.matvec(J, mine.v)], axis=1)
+        return Motion.from_states(mine.t, poses, speeds, np.concatenate([mine.a, np.matvec(J, mine.a) + bias], axis=1))
+
+    hold = [tw.LoopClosure(f"panda_{side}finger", "t_base_link", welded=True) for side in ("left", "right")]
+    scene = tw.Scene(both, contacts=hold, motors=["panda_*"])
+    need = {"tau": 0.5, "of": ["panda_joint*"]}
+    return Case(scene, need, [motion(0.3)], [motion(0.45)], {"tool": ["t_root_joint"], "wrist": ["panda_joint7"]})
+
+
+def biped_in_a_plane() -> Case:
+    """Build a biped in a plane on two point feet, which swings its arms: its base is planar, and has no motor."""
+    builder = tw.Builder("biped")
+    upright = tw.SE3(tw.exp3([np.pi / 2, 0, 0]), [0, 0, 0.8])  # the plane of x and z
+    trunk = tw.SpatialInertia.from_box(10, [0.2, 0.4, 0.1]).transform(tw.SE3(np.eye(3), [0, 0.2, 0]))
+    builder.link("trunk", parent="base_link", joint=tw.Planar(), placement=upright, inertia=trunk)
+    limb = tw.SpatialInertia.from_rod(1.5, 0.4).transform(tw.SE3(tw.exp3([np.pi / 2, 0, 0]), [0, -0.2, 0]))
+    for side in ("left", "right"):
+        for name, on, y in (("hip", "trunk", 0.0), ("knee", f"{side}_hip", -0.4), ("arm", "trunk", 0.4)):
+            at = tw.SE3(np.eye(3), [0, y, 0])
+            builder.link(f"{side}_{name}", parent=on, joint=tw.Revolute("z"), inertia=limb, placement=at)
+        builder.link(f"{side}_foot", parent=f"{side}_knee", placement=tw.SE3(np.eye(3), [0, -0.4, 0]))
+    model = builder.build()
+    feet = [tw.PointContact(f"{side}_foot", 0.7) for side in ("left", "right")]
+    q, place = model.neutral(), dict(zip(model.joint_names, model.q_slice))
+    for name, angle in (("left_hip", 0.5), ("left_knee", -0.4), ("right_hip", -0.3), ("right_knee", -0.4)):
+        q[place[name]] = angle
+    need = {"tau": 0.5, "of": ["*_hip", "*_knee"]}
+    some = [follow(model, q, {"left_arm": wave(0, 0.4, f), "right_arm": wave(0, -0.3, f)}) for f in (0.5, 0.7)]
+    return Case(tw.Scene(model, contacts=feet), need, some[:1], some[1:], {"arms": ["*_arm"], "left": ["left_arm"]})
+
+
+# ---------------------------------------------------------------- six more
+
+
+def cart_whose_pole_has_no_motor() -> Case:
+    """Build a cart-pole: the pole falls as it must, while the cart goes to and fro."""
+    model = tw.load("cart_pole")
+    slide, pole = model.joint_names[1:]
+    some = [follow(model, np.r_[0, 0.3], {slide: wave(0, 0.2, f)}, [pole]) for f in (0.5, 0.8)]
+    return Case(tw.Scene(model), {"tau": 1.0}, some[:1], some[1:], {"pole": [pole]})
+
+
+def talos_in_a_lift() -> Case:
+    """Build a Talos that lifts its arm in a lift, which starts and stops with 2 m/s²."""
+    model = tw.load("talos_reduced")
+    soles = [tw.SurfaceContact(f"{side}_sole_link", (0.1, 0.06), 0.7) for side in ("left", "right")]
+    q = model.standing()
+    lift = wave(0, 2.0 / (2 * np.pi * 0.5) ** 2, 0.5)
+    some = [shaken(model, follow(model, q, {"arm_left_4_joint": wave(-0.8, 0.3, f)}), 2, lift) for f in (0.4, 0.5)]
+    need = {"tau": 2.0, "cop": 0.01, "of": ["leg_*"]}
+    return Case(tw.Scene(model, contacts=soles), need, some[:1], some[1:])
+
+
+def parallelogram_with_one_motor() -> Case:
+    """Build a parallelogram with a lamp on a joint at its end: a closed loop of four joints, one with a motor."""
+    builder = tw.Builder("lamp")
+    rod = tw.SpatialInertia.from_rod(0.5, 0.4).transform(tw.SE3(tw.exp3([0, np.pi / 2, 0]), [0.2, 0, 0]))
+    for name, on, at, mass in (
+        ("crank", "base_link", [0, 0, 0.5], rod),
+        ("coupler", "crank", [0.4, 0, 0], tw.SpatialInertia.from_box(0.3, [0.1, 0.02, 0.02])),
+        (
+            "lamp",
+            "coupler",
+            [0, 0, 0.05],
+            tw.SpatialInertia.from_rod(0.4, 0.2).transform(tw.SE3(np.eye(3), [0, 0, 0.1])),
+        ),
+        ("rocker", "base_link", [0.1, 0, 0.5], rod),
+    ):
+        builder.link(name, parent=on, joint=tw.Revolute("y"), inertia=mass, placement=tw.SE3(np.eye(3), at))
+    for name, on, x in (("coupler_end", "coupler", 0.1), ("rocker_end", "rocker", 0.4)):
+        builder.link(name, parent=on, placement=tw.SE3(np.eye(3), [x, 0, 0]))
+    model = builder.build()
+
+    def motion(hertz: float) -> Motion:
+        turn = wave(0.2, 0.4, hertz)
+        back = wave(-0.2, -0.4, hertz)
+        lamp = wave(0.5, 0.3, 2 * hertz)
+        return follow(model, model.neutral(), {"crank": turn, "coupler": back, "rocker": turn, "lamp": lamp})
+
+    scene = tw.Scene(model, contacts=[tw.LoopClosure("coupler_end", "rocker_end")], motors=["crank", "lamp"])
+    need = {"tau": 0.05, "of": ["crank"]}
+    return Case(scene, need, [motion(0.4)], [motion(0.6)], {"lamp": ["lamp"]})
+
+
+def humanoid_that_is_pulled() -> Case:
+    """Build a humanoid that waves one arm, while a rope pulls at the other hand with 30 N."""
+    model = tw.load("humanoid")
+    soles = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), 0.7) for side in ("left", "right")]
+    scene = tw.Scene(model, contacts=soles, wrenches={"right_hand": [0, 0, 0, 25.0, 0, -15.0]})
+    some = [waving(model, model.standing(), "right", f) for f in (0.4, 0.6)]
+    return Case(scene, {"cop": 0.01, "tau": 2.0, "of": ["*_hip_*", "*_knee", "*_ankle_*"]}, some[:1], some[1:])
+
+
+def drone_with_a_load() -> Case:
+    """Build a drone under which a load hangs on a ball joint: forward and back by a course of its base."""
+    model = tw.load("iris")
+    load = tw.Builder("load", base="floating", root_inertia=tw.SpatialInertia.from_box(0.05, [0.02, 0.02, 0.02]))
+    weight = tw.SpatialInertia.from_point(0.3, [0, 0, -0.4]) + tw.SpatialInertia.from_box(0.05, [0.1, 0.1, 0.1])
+    load.link("rope", parent="base_link", joint=tw.Spherical(), inertia=weight, effort_limit=[0.0] * 3)
+    both = tw.attach(model, load.build(), "iris__base_link")
+    some = [shaken_load(both, f) for f in (0.3, 0.4)]
+    return Case(tw.Scene(both), {"wrench": 0.05}, some[:1], some[1:])
+
+
+def shaken_load(model: tw.Model, hertz: float) -> Motion:
+    """Return a motion of a drone that goes to and fro, and what hangs on it."""
+    to_and_fro = wave(0, 0.3, hertz)
+    q, v, states, dt = model.neutral(), np.zeros(model.nv), [], 0.0025
+    loose = np.arange(model.nv)[model.v_slice[model.joint_id("rope")]]
+    for k in range(800):
+        a = np.zeros(model.nv)
+        q[0], v[3], a[3] = to_and_fro(k * dt)
+        a[loose] = np.linalg.solve(tw.crba(model, q)[np.ix_(loose, loose)], -tw.rnea(model, q, v, a)[loose])
+        if k % 20 == 0:
+            states.append((q.copy(), v.copy(), a.copy()))
+        v[loose] += dt * a[loose]
+        q = model.integrate(q, dt * v)
+    return Motion.from_states(np.arange(0, 800, 20) * dt, *map(np.stack, zip(*states)))
+
+
+def gripper_of_coupled_fingers() -> Case:
+    """Build a Panda whose second finger follows the first, as a gear does: it has no motor of its own."""
+    model = tw.load("panda")
+    gear = tw.Coupling("panda_finger_joint2", {"panda_finger_joint1": 1.0})
+    q = model.integrate(model.neutral(), np.r_[0, 0.3, 0, -1.5, 0, 1.8, 0.5, 0.02, 0.02])
+
+    def motion(hertz: float) -> Motion:
+        fingers = {f"panda_finger_joint{k}": wave(0.02, 0.015, 3 * hertz) for k in (1, 2)}
+        return follow(model, q, {f"panda_joint{k}": wave(q[k - 1], 0.3, hertz) for k in (1, 2, 4)} | fingers)
+
+    scene = tw.Scene(
+        model, contacts=[gear], motors=["panda_joint*", "panda_finger_joint1"], payload={"panda_hand": 0.5}
+    )
+    need = {"tau": 0.5, "of": ["panda_joint*"]}
+    return Case(scene, need, [motion(0.4)], [motion(0.6)], {"fingers": ["panda_finger_*"], "wrist": ["panda_joint7"]})
+
+
+CASES: dict[str, Callable[[], Case]] = {
+    "a Go2 with a bucket that swings": bucket_on_a_go2,
+    "a humanoid that sits and waves": sitting_humanoid_that_waves,
+    "a satellite with a wrist": satellite_with_a_wrist,
+    "a humanoid on a platform": humanoid_on_a_platform,
+    "a tool in two fingers": tool_in_two_fingers,
+    "a biped in a plane": biped_in_a_plane,
+    "a cart whose pole has no motor": cart_whose_pole_has_no_motor,
+    "Talos in a lift": talos_in_a_lift,
+    "a parallelogram with one motor": parallelogram_with_one_motor,
+    "a humanoid that is pulled": humanoid_that_is_pulled,
+    "a drone with a load": drone_with_a_load,
+    "a gripper of coupled fingers": gripper_of_coupled_fingers,
+}
 
 if __name__ == "__main__":
-    both, q, ends = tool_in_two_fingers()
-    print(both.joint_names, both.frame_names)
+    import sys
+
+    for make in CASES.values():
+        if len(sys.argv) > 1 and not any(x in make.__name__ for x in sys.argv[1:]):
+            continue
+        case = make()
+        found = case.scene.cheapest(case.need, case.judged, held_out=case.unseen, groups=case.groups)
+        print(make.__name__)
+        print(found)

@@ -193,6 +193,8 @@ V_slider, S_slider = np.array([0, 0, w, out, 0.5 * w, 0]), np.eye(6)[3]
 half = tw.cross_motion(V_slider) @ S_slider * out
 assert np.allclose(half[3:], [0, w * out, 0])  # the acceleration of the slider has 2 ω v across:
 assert np.allclose(half[3:] + np.cross(V_slider[:3], V_slider[3:]), [-(w**2) * 0.5, 2 * w * out, 0])
+
+
 # %% [markdown] lang="en"
 # Row 0 of `F` is what the wall bears. That is RNEA. For any tree, loop over all bodies: `tree.outward` counts up, since
 # parents have smaller numbers, and `v_slice` finds the entries of joint $i$ (one for a hinge, six for a free base).
@@ -213,6 +215,8 @@ def forces_of_motion(model, q, v, a):
         tau[at[i]] = tree.S[i].T @ F[i]
         F[tree.parent[i]] += tree.X[i].T @ F[i]
     return tau
+
+
 # %% [markdown] lang="en"
 # Try it on Go2, in a moment of a trot: the base walks at 0.8 m/s, turns left and speeds up, two legs swing, two go back.
 # (`v` and `a` are in the folded cell at the top.)
@@ -242,6 +246,8 @@ tw.ask("49.6-cost", ...)
 # %%
 terms, kin = tw.rnea_terms(model, q, v, a), tw.forward_kinematics(model, q, v, a)
 V, A, F, own = (np.array(rows) for rows in (terms.V, terms.A, terms.F, terms.B))
+
+
 # %%
 def sizes(vectors, angular, linear):
     """Lengths of both halves, for the labels; nothing for the world."""
@@ -313,7 +319,9 @@ weights = np.zeros((model.nbodies, 6))
 for i in range(1, model.nbodies):
     force = model.inertia[i].mass * kin.placement[i].rotation.T @ model.gravity
     weights[i] = [*np.cross(model.inertia[i].com, force), *force]
-    assert np.allclose(weights[i], model.inertia[i].matrix() @ [0, 0, 0, *(kin.placement[i].rotation.T @ model.gravity)], atol=1e-12)
+    assert np.allclose(
+        weights[i], model.inertia[i].matrix() @ [0, 0, 0, *(kin.placement[i].rotation.T @ model.gravity)], atol=1e-12
+    )
 
 assert not np.allclose(tw.rnea(weightless, q, v, a), tau)
 assert np.allclose(tw.rnea(weightless, q, v, a, f_ext=weights), tau, rtol=1e-12, atol=1e-12)

@@ -162,6 +162,8 @@ print(Ia.diagonal(), pa)
 IA1 = I[1] + X[2].T @ Ia @ X[2]
 pA1 = pA[1] + X[2].T @ pa
 print(IA1.diagonal(), pA1)
+
+
 # %% [markdown] lang="en"
 # Rod 1 carries all of rod 2 sideways, but only a part of it upward, where the elbow gives way. With the same lines for
 # joint 1 we are at the wall, which rises with $-\boldsymbol g$. **Pass 3**, outward again, puts in the accelerations. All
@@ -193,6 +195,8 @@ def accelerations(model, q, v, tau):
         qdd[at[i]] = D[i] @ (u[i] - U[i].T @ a)
         A[i] = a + t.S[i] @ qdd[at[i]]
     return qdd
+
+
 # %%
 drop, qdd = accelerations(arm, bend, speeds, np.zeros(2)), tw.aba(model, q, v, tau)
 print("the arm:", drop, "rad/s²; does 49.6 agree?", tw.rnea(arm, bend, speeds, drop).round(12) + 0.0, "N m")

@@ -115,6 +115,8 @@ print(F.T, "M12:", S[1].T @ F)
 IC1 = I[1] + X[2].T @ I[2] @ X[2]
 F = IC1 @ S[1]
 print(F.T, "M11:", S[1].T @ F)
+
+
 # %% [markdown] lang="en"
 # $\tfrac13$ for rod 1, and $\tfrac1{12} + (1^2 + 0.5^2)$ for rod 2, whose middle is further out. For any tree, from the tips
 # inward, with a climb to the base for each joint:
@@ -137,6 +139,8 @@ def matrix_of_inertia(model, q):
             M[at[i], at[j]] = M[at[j], at[i]].T
         IC[t.parent[i]] = IC[t.parent[i]] + t.X[i].T @ IC[i] @ t.X[i]
     return M
+
+
 # %%
 print(matrix_of_inertia(arm, bend))
 difference = np.abs(matrix_of_inertia(model, q) - M).max()
@@ -167,6 +171,8 @@ link = placement[thigh].inverse() @ placement[calf]
 both = model.inertia[thigh] + model.inertia[calf].transform(link)
 assert np.allclose(terms.IC[thigh], both.matrix(), rtol=1e-12, atol=1e-12)  # the calf is all that the thigh carries
 assert np.isclose(masses[1], model.mass)
+
+
 # %% [markdown] lang="en"
 # **Exercise 49.8.1.** What is then the upper left 6 × 6 block of $M$? The chapter calls it the inertia of the base,
 # and not diagonal because of the centre of mass. Build it from the inertias of the bodies, and see whether you agree.

@@ -62,6 +62,8 @@ plt.show()
 for name, velocity in zip(model.feet, foot_velocity):
     later = tw.frame_placement(model, model.integrate(q, 1e-100j * walking), name).translation
     assert np.allclose(later.imag / 1e-100, velocity, atol=1e-12)
+
+
 # %% [markdown] lang="en"
 # **Exercise 49.9.2.** Write $S^T\tau$ without any matrix; $S$ itself is the other half of the exercise, in your folder.
 # %% [markdown] lang="zh"

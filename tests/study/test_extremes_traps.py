@@ -103,12 +103,7 @@ ROWS = [
 
 @pytest.mark.parametrize("language", ["", ".zh-CN"])
 def test_each_row_has_the_number_that_is_computed(language):
-    text = (
-        page("extremes", language)
-        .read_text(encoding="utf-8")
-        .partition("<!-- traps -->")[2]
-        .partition("\n\n")[0]
-    )
+    text = page("extremes", language).read_text(encoding="utf-8").partition("<!-- traps -->")[2].partition("\n\n")[0]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.strip().splitlines()[2:]]
     assert len(rows) == len(ROWS)
     for (trap, number, cure), compute in zip(rows, ROWS):
