@@ -500,7 +500,7 @@ FAULTS = [
     Fault(
         "condition for its inverse",
         "error_bounds.py",
-        "DIVIDED * eps * within / np.where(",
-        "DIVIDED * eps * within * np.where(",
+        "DIVIDED * eps * factor / np.where(",
+        "DIVIDED * eps * factor * np.where(",
     ),
 ]

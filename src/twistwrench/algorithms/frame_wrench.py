@@ -85,7 +85,8 @@ def frame_wrench(
     F = I @ A + bias_wrench(I, V) - outside[at.body]
     for i in joints:
         F = F + tree.X[i].mT @ terms.F[i][..., None]
-    return (cast(at.placement, q.dtype).motion_transform().mT @ F)[..., 0]  # the inverse of X*
+    wrench: Array = (cast(at.placement, q.dtype).motion_transform().mT @ F)[..., 0]  # by the inverse of X*
+    return wrench
 
 
 def _beyond(model: Model, frame: str) -> tuple[SpatialInertia, list[int]]:
@@ -113,6 +114,6 @@ def _beyond(model: Model, frame: str) -> tuple[SpatialInertia, list[int]]:
 
 def _carriers(links: Mapping[str, Frame], name: str | None) -> Iterator[str]:
     """Yield a frame of a body, the one that it hangs on, and so on to the joint."""
-    while name in links:
+    while name is not None and name in links:
         yield name
         name = links[name].parent

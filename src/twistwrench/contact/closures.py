@@ -164,7 +164,8 @@ class LoopClosure(_Internal):
         cosine = (now * axis).sum(axis=-1, keepdims=True)
         over = (sine < MIN_SINE) & (cosine < 0)  # all ways back are as long
         unit = np.where(over, self.directions[0, :3], across / np.where(sine > 0, sine, 1))
-        return np.arctan2(sine, cosine) * unit
+        tilt: Array = np.arctan2(sine, cosine) * unit
+        return tilt
 
 
 @dataclass(frozen=True)

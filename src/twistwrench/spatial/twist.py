@@ -19,6 +19,8 @@ __all__ = ["Screw", "Twist", "hat", "screw", "vee"]
 class Placed(Protocol):
     """What a change of frame must offer: `twistwrench.SE3` does."""
 
+    translation: Array
+
     def motion_transform(self) -> Array: ...
 
     def force_transform(self) -> Array: ...
