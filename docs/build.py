@@ -4,9 +4,11 @@ usage:  python docs/build.py             the site, below build/site/html; open i
         python docs/build.py --check     and every link in it, and pages of both languages in a headless Chromium
         python docs/build.py --draft en  for an author: one language, and notebooks as they were run before
 
-Needs `pip install -e ".[docs]"`. Every warning is an error. Nothing is fetched: the site, and building it, work without
-a network. The first build runs the notebooks; later ones run only those of which something has changed. Where
-docs/runtime.py has gathered Python for the page, notebooks and exercises can be run in it.
+Needs `pip install -e ".[docs]"`. Every warning is an error. The site works without a network, and is built without one,
+but for Python in the page: what runs it is gathered once by docs/runtime.py, and where it cannot be had, the reason is
+printed and the pages have no buttons. The first build runs the notebooks; later ones run only those of which something
+has changed. The site that is there stays whole until the new one is done; build/site/twistwrench-site.zip is all of it
+in one file.
 """
 
 import argparse
@@ -21,6 +23,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+import runtime
 from website import (
     beside,
     browser,
@@ -63,18 +66,19 @@ def stage(languages: Sequence[str], draft: bool, done: Callable[[str], None]) ->
     pages.write(target, mathjax.read_text(encoding="utf-8"))
     for language, tree in trees.items():
         if pages.replace(OUT / "pages" / language, tree):  # a page is gone, and what was built from it goes too
-            shutil.rmtree(OUT / "html" / language, ignore_errors=True)
             shutil.rmtree(OUT / "doctrees" / language, ignore_errors=True)
+            if draft:  # which is written over the pages that are there
+                shutil.rmtree(OUT / "html" / language, ignore_errors=True)
     shutil.rmtree(new)
 
 
-def sphinx(language: str, draft: bool) -> subprocess.Popen[bytes]:
+def sphinx(language: str, html: Path, draft: bool) -> subprocess.Popen[bytes]:
     """Start Sphinx for a language; the other one is built at the same time.
 
     All pages are written, but for a draft: of those that are not, its search would lose the entries of the index.
     """
     command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "--keep-going", "-c", "docs"]
-    command += ["-d", f"{OUT}/doctrees/{language}", f"{OUT}/pages/{language}", f"{OUT}/html/{language}"]
+    command += ["-d", f"{OUT}/doctrees/{language}", f"{OUT}/pages/{language}", f"{html}/{language}"]
     command += [] if draft else ["--write-all"]
     environment = os.environ | {"SITE_LANGUAGE": language, "SITE_STATIC": str(OUT / "static")}
     return subprocess.Popen(command, cwd=pages.ROOT, env=environment)
@@ -83,6 +87,26 @@ def sphinx(language: str, draft: bool) -> subprocess.Popen[bytes]:
 def write_door(html: Path) -> None:
     """Write the page at the top, which leads to the language that the reader's browser asks for."""
     pages.write(html / "index.html", (Path(__file__).parent / "website" / "door.html").read_text(encoding="utf-8"))
+
+
+def gather_runtime() -> None:
+    """Gather Python for the page, unless it is there; where it cannot be had, say why."""
+    try:
+        runtime.gather()
+    except runtime.Unavailable as reason:
+        print(f"Python in the page is left out: {reason}", flush=True)
+
+
+def exchange(new: Path, html: Path) -> None:
+    """Put the new site in the place of the one that is there, and all of it into one file beside it."""
+    old = OUT / "old"
+    shutil.rmtree(old, ignore_errors=True)
+    if html.exists():
+        html.rename(old)
+    new.rename(html)
+    shutil.rmtree(old, ignore_errors=True)
+    archive = shutil.make_archive(str(OUT / "twistwrench-site"), "zip", html)
+    print(f"{archive}: {Path(archive).stat().st_size / 1e6:.0f} MB", flush=True)
 
 
 def main() -> int:
@@ -96,18 +120,26 @@ def main() -> int:
     def done(what: str) -> None:
         print(f"{what}: {time.perf_counter() - start:.0f} s", flush=True)
 
+    if not given.draft:
+        gather_runtime()
+        done("Python for the page")
     stage(languages, bool(given.draft), done)
     done("pages written")
-    runs = [sphinx(language, bool(given.draft)) for language in languages]
+    html = OUT / ("html" if given.draft else "next")
+    if not given.draft:
+        shutil.rmtree(html, ignore_errors=True)
+    runs = [sphinx(language, html, bool(given.draft)) for language in languages]
     if sum(run.wait() for run in runs):  # wait for both
         print("the site was not built: see the warnings above", file=sys.stderr)
         return 1
     done("HTML written")
-    formulas.write_formulas(OUT / "html")
+    formulas.write_formulas(html)
     done("formulas set")
-    write_door(OUT / "html")
-    inpage.write_runtime(OUT / "html")
-    inpage.write_downloads(OUT / "html", languages, notebooks.names())
+    write_door(html)
+    inpage.write_runtime(html)
+    inpage.write_downloads(html, languages, notebooks.names())
+    if not given.draft:
+        exchange(html, OUT / "html")
     done(f"built {OUT / 'html' / 'index.html'}")
     if not given.check:
         return 0
