@@ -62,6 +62,7 @@ instructions   LLVM's language: arithmetic, and the way in and out of memory
 objects        machine code on disk, for the next process
 llvm           machine code, by LLVM
 source         a line as text: Python and C, with names and comments if the tape took notes
+rows           a line as text for JAX: rows of like operations, in one loop
 pairs          arithmetic with pairs of doubles, sin and cos
 double_double  a line rewritten into pairs, with bounds
 running        a line with a bound beside each number, in the same numbers
@@ -82,6 +83,7 @@ from .double_double import DoubleDouble, double_double
 from .line import Line
 from .number import Number, Tape, numbers
 from .recorder import straight_line
+from .rows import jax_source
 from .running import with_running_bound
 from .source import c_source, python_source
 
@@ -93,6 +95,7 @@ __all__ = [
     "Tape",
     "c_source",
     "double_double",
+    "jax_source",
     "numbers",
     "python_source",
     "straight_line",

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from straightline.backend import BackEnd
 from straightline.line import Line
 from straightline.outputs import check_outputs, finish, separate, targets
+from straightline.rows import jax_source
 from straightline.source import c_source, python_source
 from straightline.ufunc import ArrayFunction
 
@@ -155,12 +156,15 @@ class Program:
     def source(self, functions: str = "math") -> str:
         """Return the straight line as a Python function: for floats, or any numbers with + − × ÷, cos, sin and sqrt.
 
-        Each value has the name of the chapter's step that it belongs to, and of its body. Nothing is checked.
+        Each value has the name of the chapter's step that it belongs to, and of its body; results are nested lists.
+        For JAX the same operations are rows of a table that one loop goes through, which compiles in a second however
+        many there are; results are arrays. The function is for one state; `jax.vmap` makes it one for many. Nothing is
+        checked but, by JAX, the number of entries.
 
         Parameters
         ----------
         functions : str
-            The module of cos, sin and sqrt: "math", "mpmath", "sympy", "jax.numpy", "torch".
+            The module of cos, sin and sqrt: "math", "mpmath", "sympy", "casadi", "torch", "jax.numpy".
 
         Examples
         --------
@@ -177,6 +181,8 @@ class Program:
             return [A1_1]
         <BLANKLINE>
         """
+        if functions == "jax.numpy":
+            return jax_source(self.line, self._name)
         return python_source(self._noted(), self._name, functions)
 
     def c(self) -> str:
