@@ -51,12 +51,11 @@ def test_rows_compute_what_the_program_computes(name, numpy_for_jax):
 
 
 def test_every_operation_has_a_formula(numpy_for_jax):
-    def mixed(x, y):
-        larger = x[0].select(x[1], y)
-        return np.array([-x[0], x[1] - x[0] * y, x[0] * y - x[1], x[0] / y, y.sqrt(), larger]), x[1].arctan2(x[0])
+    def mixed(x):
+        a, b, c = x
+        return np.array([-a, b - a * c, a * c - b, a / c, c.sqrt(), a.select(b, c)]), np.array(b.arctan2(a), object)
 
-    line = straight_line(mixed, x=(2,), y=())
-    parts, angle = function(jax_source(line, "f"), "f")(np.array([3.0, -4.0]), np.array(2.0))
+    parts, angle = function(jax_source(straight_line(mixed, x=(3,)), "f"), "f")(np.array([3.0, -4.0, 2.0]))
     np.testing.assert_array_equal(parts, [-3, -10, 10, 1.5, np.sqrt(2.0), -4])
     assert angle == np.arctan2(-4.0, 3.0)
 
