@@ -62,9 +62,8 @@ def main() -> None:
         for kind, text in texts.items():
             seconds, call, found = measure(function(program, text), args)
             error = np.abs(found - expected).max() / np.abs(expected).max()
-            print(
-                f"{want:8} {total:6} operations  {kind:8} {seconds:6.2f} s to compile  {1e6 * call:5.0f} us  {error:.0e}"
-            )
+            print(f"{want:8} {total:6} operations  {kind:8}", end="")
+            print(f" {seconds:6.2f} s to compile  {1e6 * call:5.0f} us  {error:.0e}")
 
 
 if __name__ == "__main__":
