@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_array
-from ..spatial._vector import SpatialVector, as_spatial
+from ..spatial._vector import FramedVector, as_spatial
 
 __all__ = [
     "from_pinocchio_force",
@@ -143,7 +143,7 @@ def from_pinocchio_force(F: Any) -> Array:
 
 def vectors(value: Any, name: str, kind: str) -> Any:
     """Take the six numbers out of Pinocchio's own type, or out of each of a sequence."""
-    if isinstance(value, SpatialVector):
+    if isinstance(value, FramedVector):
         raise TypeError(f"{name}: expected a pin.{kind} or an array, got a {type(value).__name__}, angular part first")
     if hasattr(value, "vector"):
         if type(value).__name__ != kind:

@@ -11,7 +11,7 @@ from ..arrays import Array, as_arrays, as_number_array, as_number_arrays, check_
 from ..errors import FrameError, SingularError, unknown_name
 from ._elementary import at_first_index, length
 
-__all__ = ["SpatialVector", "align_digits", "as_spatial", "common_frame", "latex_matrix"]
+__all__ = ["FramedVector", "align_digits", "as_spatial", "common_frame", "latex_matrix"]
 
 LATEX = str.maketrans(
     {c: f"\\{c}" for c in "_#%&${} "} | {"\\": r"\backslash ", "^": r"\wedge ", "~": r"\sim ", "\n": r"\ "}
@@ -19,7 +19,7 @@ LATEX = str.maketrans(
 """Escapes of the characters that LaTeX would take for commands: a name is printed as it is."""
 
 
-class SpatialVector:
+class FramedVector:
     """What twists and wrenches share: six numbers, a frame, and a sum that checks both."""
 
     __slots__ = ("_frame", "_vector")
@@ -32,7 +32,7 @@ class SpatialVector:
         if others:
             got = f"{type(self).__name__}: expected one array of shape (..., 6), got {1 + len(others)}"
             raise TypeError(f"{got}; np.concatenate([angular, linear], axis=-1) makes one of two halves")
-        if isinstance(vector, SpatialVector):
+        if isinstance(vector, FramedVector):
             mine, theirs = type(self).__name__, type(vector).__name__
             raise TypeError(f"{mine}({theirs}): expected six numbers; those of the {theirs} are its .vector")
         if not isinstance(frame, str | None):
@@ -143,7 +143,7 @@ class SpatialVector:
         return self._frame == other._frame and np.array_equal(self._vector, other._vector)
 
     def __add__(self, other: object) -> Self:
-        if not isinstance(other, SpatialVector):
+        if not isinstance(other, FramedVector):
             self._refuse(self, "+", other)
         frame = common_frame(self, "+", other)
         both = f"{type(self).__name__} + {type(other).__name__}"
@@ -151,7 +151,7 @@ class SpatialVector:
         return type(self)(self._vector + other._vector, frame=frame)
 
     def __sub__(self, other: object) -> Self:
-        if not isinstance(other, SpatialVector):
+        if not isinstance(other, FramedVector):
             self._refuse(self, "-", other)
         frame = common_frame(self, "-", other)
         both = f"{type(self).__name__} - {type(other).__name__}"
@@ -170,7 +170,7 @@ class SpatialVector:
         return type(self)(-self._vector, frame=self._frame)
 
     def __mul__(self, scalar: ArrayLike) -> Self:
-        if isinstance(scalar, SpatialVector):
+        if isinstance(scalar, FramedVector):
             return NotImplemented
         s, x = self._with_scalar(scalar)
         return type(self)(s * x, frame=self._frame)
@@ -178,7 +178,7 @@ class SpatialVector:
     __rmul__ = __mul__
 
     def __truediv__(self, scalar: ArrayLike) -> Self:
-        if isinstance(scalar, SpatialVector):
+        if isinstance(scalar, FramedVector):
             return NotImplemented
         s, x = self._with_scalar(scalar)
         if not s.all():
@@ -195,7 +195,7 @@ class SpatialVector:
         return s[..., None], x
 
     def __matmul__(self, other: object) -> Any:
-        if isinstance(other, SpatialVector) and type(other) is not type(self):
+        if isinstance(other, FramedVector) and type(other) is not type(self):
             return NotImplemented  # a wrench knows its power on a twist
         self._refuse_product(self, other)
 
@@ -224,7 +224,7 @@ class SpatialVector:
         return rf"${frame}\mathbf{{{self._symbol}}} = {latex_matrix(self._vector[:, None])}$"
 
 
-def common_frame(a: SpatialVector, sign: str, b: SpatialVector) -> str | None:
+def common_frame(a: FramedVector, sign: str, b: FramedVector) -> str | None:
     """Return the frame of both sides of an expression, or raise where they cannot be combined."""
     if type(a) is not type(b) and sign in "+-":
         raise TypeError(
@@ -242,7 +242,7 @@ def common_frame(a: SpatialVector, sign: str, b: SpatialVector) -> str | None:
 def as_spatial(value: ArrayLike, name: Literal["V", "F"]) -> Array:
     """Return the six numbers of an argument V, a Twist, or F, a Wrench; plain arrays pass, the other type does not."""
     for one in value if isinstance(value, list | tuple) else [value]:
-        if isinstance(one, SpatialVector) and one._symbol != name:
+        if isinstance(one, FramedVector) and one._symbol != name:
             expected = "Twist" if name == "V" else "Wrench"
             raise TypeError(f"{name}: expected a {expected} or an array, got a {type(one).__name__}")
     return as_number_array(value, name, 6)

@@ -34,7 +34,7 @@ from ..arrays import (
 from ..errors import ModelError, ShapeError
 from ._elementary import at_first_index, atan2, largest
 from ._physical import check_numbers, check_physical
-from ._vector import SpatialVector, align_digits, as_spatial
+from ._vector import FramedVector, align_digits, as_spatial
 from .cross import cross_force, cross_motion
 from .ellipsoid import views
 from .orthonormal import nearest_rotation
@@ -430,8 +430,8 @@ class SpatialInertia:
 
     def __mul__(self, scale: ArrayLike) -> SpatialInertia:
         """Scale a body: the same shape of a material as many times as dense."""
-        if isinstance(scale, SpatialInertia | SpatialVector):
-            use = "I @ V is the momentum" if isinstance(scale, SpatialVector) else "only inertias and numbers multiply"
+        if isinstance(scale, SpatialInertia | FramedVector):
+            use = "I @ V is the momentum" if isinstance(scale, FramedVector) else "only inertias and numbers multiply"
             raise TypeError(f"SpatialInertia * {type(scale).__name__}: expected a number; {use}")
         a, m, c, I_c = self._with_scale(scale)
         with np.errstate(over="ignore"):
@@ -440,7 +440,7 @@ class SpatialInertia:
     __rmul__ = __mul__
 
     def __truediv__(self, scale: ArrayLike) -> SpatialInertia:
-        if isinstance(scale, SpatialInertia | SpatialVector):
+        if isinstance(scale, SpatialInertia | FramedVector):
             return NotImplemented
         a, m, c, I_c = self._with_scale(scale)
         if (comparable(a) == 0).any():

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array, as_array, as_number, as_number_array, check_batches, check_overflow, tolerance
 from ..errors import ShapeError, SingularError
 from ._elementary import at_first_index, largest, length
-from ._vector import SpatialVector, as_spatial
+from ._vector import FramedVector, as_spatial
 from .rotation import cross_matrix, unskew
 
 __all__ = ["Screw", "Twist", "hat", "screw", "vee"]
@@ -121,7 +121,7 @@ def vee(M: ArrayLike) -> Array:
     return np.concatenate([unskew(M[..., :3, :3]), M[..., :3, 3]], axis=-1)
 
 
-def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None = None, noise: float = 0.0) -> Screw:
+def screw(x: FramedVector | ArrayLike, *, of: Literal["twist", "wrench"] | None = None, noise: float = 0.0) -> Screw:
     """Axis, point, pitch and magnitude of a twist or a wrench (sections 49.2 and 49.4).
 
     A twist has the axis ω/|ω|, point ω×v/|ω|², pitch ω·v/|ω|² and magnitude |ω|. Without rotation the axis is v/|v|,
@@ -162,7 +162,7 @@ def screw(x: SpatialVector | ArrayLike, *, of: Literal["twist", "wrench"] | None
     """
     if not as_number(noise, "noise") >= 0:
         raise ValueError(f"noise: expected a number that is not below zero, got {noise}")
-    if isinstance(x, SpatialVector):
+    if isinstance(x, FramedVector):
         kind = type(x).__name__.lower()
         line, free = (as_array(half, "x", 3) for half in x._line_and_free())
         if of not in (None, kind):
@@ -197,7 +197,7 @@ def _screw(line: Array, free: Array, kind: str, noise: float) -> Screw:
     return Screw(axis, point, np.where(without[..., 0], np.inf, pitch), magnitude[..., 0])
 
 
-class Twist(SpatialVector):
+class Twist(FramedVector):
     """Velocity of a rigid body, (ω, v): its angular velocity, and the velocity of its point at the origin (49.2).
 
     Parameters

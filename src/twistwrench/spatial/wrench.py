@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, as_number_arrays, check_batches, check_overflow, without_overflow
 from ..errors import SingularError
-from ._vector import SpatialVector, as_spatial, common_frame
+from ._vector import FramedVector, as_spatial, common_frame
 from .rotation import cross_matrix
 from .twist import Placed, Screw, Twist, check_placement, screw
 
@@ -48,7 +48,7 @@ def power(F: Wrench | ArrayLike, V: Twist | ArrayLike) -> Array:
     """
     if isinstance(F, Twist) or isinstance(V, Wrench):
         raise TypeError(f"power({type(F).__name__}, {type(V).__name__}): expected a wrench, then a twist")
-    if isinstance(F, SpatialVector) and isinstance(V, SpatialVector):
+    if isinstance(F, FramedVector) and isinstance(V, FramedVector):
         common_frame(F, "·", V)
     f, v = as_number_arrays(F=(as_spatial(F, "F"), (6,)), V=(as_spatial(V, "V"), (6,)))
     check_batches("F and V", f.shape[:-1], v.shape[:-1])
@@ -89,7 +89,7 @@ def center_of_pressure(F: Wrench | ArrayLike) -> Array:
     return np.stack([-F[..., 1], F[..., 0], 0 * F[..., 5]], axis=-1) / F[..., 5:]
 
 
-class Wrench(SpatialVector):
+class Wrench(FramedVector):
     """Wrench on a rigid body, (τ, f): the moment about the origin of the frame, and the force (section 49.4).
 
     Parameters
