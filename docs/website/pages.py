@@ -47,6 +47,9 @@ LINE_END = re.compile(
     re.MULTILINE,
 )
 """Where a line of Chinese ends and no blank may show; a heading ends with its line."""
+PICTURE = re.compile(r'<picture>\n<source srcset="([^"]+)"[^>]*>\n<img src="([^"]+)" alt="([^"]+)">\n</picture>')
+"""A picture for the dark and one for the light; the site shows the one of the theme, not of the machine."""
+IMAGES = "```{image} \\2\n:alt: \\3\n:class: only-light\n```\n\n```{image} \\1\n:alt: \\3\n:class: only-dark\n```"
 NO_TWIN = "\n\n:::{note}\n本页只有英文。\n:::\n"
 
 
@@ -98,7 +101,7 @@ def moved(text: str, path: str, name: str, out: Path) -> str:
         pieces = [(f, part if f else re.sub(r"^### ", "## ", part, flags=re.MULTILINE)) for f, part in pieces]
     if path.endswith(f"{SUFFIX['zh']}.md"):
         pieces = [(f, part if f else joined(part, "zh")) for f, part in pieces]
-    return "".join(part for _, part in pieces)
+    return PICTURE.sub(IMAGES, "".join(part for _, part in pieces))
 
 
 def page_of(path: str) -> str | None:

@@ -107,6 +107,15 @@ def test_chinese_pages_link_to_chinese_pages(tmp_path):
     )
 
 
+def test_a_picture_for_light_and_dark_becomes_two_of_which_the_theme_shows_one(tmp_path):
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    moved = pages.moved(text, "README.md", "readme", tmp_path)
+    shown = re.findall(r"^```\{image\} (\S+)\n:alt: .*157\.8 N\n:class: (\S+)\n```$", moved, re.MULTILINE)
+    assert shown == [(f"files/docs/pictures/door_{name}.svg", f"only-{name}") for name in ("light", "dark")]
+    assert "<picture>" not in moved
+    assert all((tmp_path / path).is_file() for path, _ in shown)
+
+
 def test_the_line_that_leads_to_the_other_language_goes_and_other_links_stay(tmp_path):
     text = "# A\n\n[English](map.md) · [README](../README.zh-CN.md)\n\nB\n"
     assert pages.moved(text, "docs/traps.zh-CN.md", "traps", tmp_path) == "# A\n\nB\n"
