@@ -11,6 +11,7 @@ import argparse
 import base64
 import io
 import os
+import re
 import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -28,6 +29,7 @@ VARIES = {
 """In place of an output that a second run does not repeat."""
 SAME = {"SOURCE_DATE_EPOCH": "0", "PYTHONHASHSEED": "0"}
 """The date in an SVG, and the order of sets."""
+PATH = re.compile(r'(?<= )d="[^"]*"')
 
 
 def run(path: Path) -> NotebookNode:
@@ -71,9 +73,16 @@ def small(output: NotebookNode) -> NotebookNode:
     data = output.get("data", {})
     if "image/png" in data:
         data["image/png"] = few_colours(data["image/png"])
+    if "image/svg+xml" in data:
+        data["image/svg+xml"] = PATH.sub(short, data["image/svg+xml"])
     if {"image/png", "image/svg+xml"} & {*data}:
         data.pop("text/plain", None)  # the size of the figure
     return output
+
+
+def short(path: re.Match[str]) -> str:
+    """Return a path of an SVG on one line, its coordinates to a tenth of a point."""
+    return re.sub(r"(\.\d)\d+", r"\1", " ".join(path[0].split()))
 
 
 def few_colours(png: str) -> str:
