@@ -30,7 +30,7 @@ SOUGHT = {
 """What is looked up, and the page that has to be found first."""
 AXE = (("en", "light"), ("zh", "dark"))
 MOST_TABS = 40
-SLIP = {"en": "the skew-symmetric matrix is transposed", "zh": "反对称矩阵被转置"}
+SLIP = {"en": "Kind of slip: sign.", "zh": "错误类型：符号。"}
 MOST_TO_START = 180_000
 """Milliseconds until Python answers in a page, on a machine that does other things too."""
 RULES = {"runOnly": {"type": "tag", "values": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}}
@@ -172,7 +172,7 @@ def runs(html: Path, language: str) -> Iterator[str]:
             yield f"{language}: no verdict on an exercise, but {page.locator('.run-dock').inner_text()!r}"
         else:
             if SLIP[language] not in place.locator(".tw-wrong").inner_text():
-                yield f"{language}: the slip is not named: {place.locator('.tw-wrong').inner_text()}"
+                yield f"{language}: the kind of slip is not named: {place.locator('.tw-wrong').inner_text()}"
         browser.close()
 
 

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import nbformat
-from myst_parser.slugs import github_slugify
 
 from .pages import ROOT, joined, moved, pages, twin, write
 
@@ -126,6 +125,8 @@ def image(file: str, says: str, up: str = "../", link: str = "") -> str:
 
 def gallery(out: Path, names: list[str], language: str) -> str:
     """Return the page of all pictures; the notebooks in `out` were run."""
+    from myst_parser.slugs import github_slugify  # of the docs extra, which the tests of notebooks do without
+
     parts = [joined(TEXT[language], language), f"## {NOTEBOOK[language]}", "::::{container} doors gallery"]
     for name in names:
         for figure in figures(nbformat.read(out / "chapter" / f"{name}.ipynb", as_version=4)):

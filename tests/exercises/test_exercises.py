@@ -345,7 +345,7 @@ def test_a_path_through_pytest(tmp_path):
     written = file.read_text(encoding="utf-8")
     file.write_text(written.replace("return ...", "return np.eye(6), np.eye(6), np.eye(6)", 1), encoding="utf-8")
     assert "Next:" not in pytest_in(tmp_path, "--collect-only", "ex_49_3.py").stdout
-    failed = pytest_in(tmp_path, "-k", "49_3")
+    failed = pytest_in(tmp_path, "-k", "49_3", "--level", "2")
     assert failed.returncode == 1
     assert "the coupling term is missing." in failed.stdout
     assert "Traceback" not in failed.stdout
