@@ -37,6 +37,7 @@ GOOD = {
     "v": REST,
     "a": REST,
     "tau": REST,
+    "use": "simulation",
 }
 """A value for every argument that must be given: by its name or, where that has two meanings, by its type."""
 
@@ -65,7 +66,8 @@ TAKERS = takers()
 def call(function, **given):
     """Call a function with what is given, and with a good value for all else that it must have."""
     for name, parameter in inspect.signature(function).parameters.items():
-        if parameter.default is parameter.empty and name not in given:
+        named = parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD)
+        if named and parameter.default is parameter.empty and name not in given:
             given[name] = next(
                 known[key] for known in (GOOD, EVERY) for key in (name, parameter.annotation) if key in known
             )

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, convert
 from ..errors import ModelError
-from ..model import Frame, Model, cast, check_state, columns, tree_terms, wrenches
+from ..model import Frame, Model, cast, check_model, check_state, columns, tree_terms, wrenches
 from ..spatial import SpatialInertia
 from ..spatial.formulas import bias_wrench
 from ._mimic import also_of_mimics
@@ -75,6 +75,7 @@ def frame_wrench(
     >>> tw.frame_wrench(robot.build(), [np.pi / 2], [0.0], [0.0], "tool").round(6) + 0.0
     array([ 0.     , -0.47088, 0.     , -7.848  , 0.     , 0.     ])
     """
+    check_model(model)
     at = model.frame(frame)
     inertia, joints = _beyond(model, frame)
     q, v, a, f_ext = check_state(model, q, v=v, a=a, f_ext=f_ext)
