@@ -38,6 +38,7 @@ MADE_BY_HAND += ["Coupling", "DistanceConstraint", "LoopClosure", "SlidingContac
 LEFT_OUT = {"axes_2d", "axes_3d", "import_pinocchio", "robots", "Template"}
 LEFT_OUT |= {"from_mujoco_model", "from_pinocchio_inertia", "from_pinocchio_model", "from_pinocchio_se3"}
 LEFT_OUT |= {"advise"}  # it measures for seconds; its own tests make its bad calls
+LEFT_OUT |= {"prepare"}  # it takes names alone, and its own tests give it others
 NOT_SWEPT = {"colour", "label", "text", "title", "progress", "com", "inward", "alpha", "there"}
 """Arguments that matplotlib takes as they are, that are true or false, and Pinocchio's own objects."""
 
@@ -193,8 +194,12 @@ SPECIAL: dict[str, dict[str, Any]] = {
     "simulate": {"steps": 1},
     "log6": {"T": tw.SE3.identity()},
     "exp6": {"V": np.ones(6)},
+    "ask": {"name": "49.7-tip", "guess": "a"},
+    "advise": {"use": "simulation"},
 }
 CALLED = {
+    "ask": {"name": "question", "guess": "letters"},
+    "motion_error": {"dt": "duration"},
     "Builder": {"root": "link", "root_inertia": "inertia"},
     "Builder.build": {"postures": "posture"},
     "Builder.link": {"name": "link", "joint_name": "joint"},

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 import twistwrench as tw
 
 from . import newton_euler_3d as ne
-from .arrays import Array, check_kind
+from .arrays import Array, as_count, check_kind
 from .errors import check_known
 from .fast.program import Results
 from .model import Model, check_model
@@ -405,6 +405,7 @@ def advise(
     check_model(model)
     check_known("use", use, USES)
     wanted = USES[use]
+    rounds = as_count(rounds, "rounds", 1)
     if within is None:
         if duration is not None or certified:
             raise ValueError("within: expected the error that is allowed, as in '0.1 mm', with duration or certified")

@@ -36,7 +36,7 @@ def ask(name: str, guess: float | str | EllipsisType | None = None, *, language:
     Raises
     ------
     NameNotFound
-        If there is no such question.
+        If there is no such question, or no such language.
     ValueError
         If the guess is no letter of the choices, or no finite number.
 
@@ -46,12 +46,14 @@ def ask(name: str, guess: float | str | EllipsisType | None = None, *, language:
     >>> print(tw.ask("49.9-tipping", 90, language="en").right)
     False
     """
+    language = default_language() if language is None else language
+    check_known("language", language, ("en", "zh"))
     section = name.partition("-")[0] if isinstance(name, str) else ""
     known = questions(section) if section in SECTIONS else {}
     check_known("question", name, known or [other for section in SECTIONS for other in questions(section)])
     question = known[name]
     given = None if guess is None or guess is ... else _read(question, guess)
-    return Asked(question, question.compute(), given, language or default_language())
+    return Asked(question, question.compute(), given, language)
 
 
 def _read(question: Question, guess: Any) -> str | float:

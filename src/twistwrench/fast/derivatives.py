@@ -58,7 +58,7 @@ def second_derivatives(model: Model, known: Mapping[str, Quantity], names: Itera
     the order of two steps matters.
     """
     made = {}
-    for name in names:
+    for name in (name for name in names if isinstance(name, str)):  # others are refused with all that is unknown
         first, _, by = name.rpartition("_d")
         quantity = known.get(first)
         if name not in known and first.startswith("d") and quantity and by in {*quantity.arguments} - {"f_ext"}:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, get_args
 
 from numpy.typing import ArrayLike
 
 from ..algorithms import kinematics as textbook
 from ..algorithms.kinematics import Reference
 from ..arrays import Array
+from ..errors import check_known
 from ..model import Model, check_model
 from ..spatial import SE3
 from .programs import cached_program, remembered, result, states_of
@@ -254,6 +255,10 @@ def _of_frame(
 ) -> Any:
     """Return what the program of a frame computes."""
     check_model(model)
+    frame, *reference = of if isinstance(of, tuple) else (of,)
+    model.frame(frame)
+    for axes in reference:
+        check_known("reference", axes, get_args(Reference))
     states, dtype = states_of(model, named)
     key = (tuple(quantity.symbol for quantity in asked), dtype, of)
     return cached_program(model, key, dtype, lambda: asked, single=len(asked) == 1)(*states, out=out)

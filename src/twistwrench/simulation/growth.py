@@ -119,7 +119,7 @@ def motion_error(
     growth = _growth(model, whole, nudged)
     size = np.abs(_points(model, whole.q[-1])).max(axis=(-2, -1)) + 1  # m
     rounding = 1e3 * size * np.finfo(np.float64).eps * np.sqrt(made) * np.maximum(growth, 1)
-    share = 1 - 2.0 ** -METHODS[method].order
+    share = 1 - 2.0 ** -METHODS[whole.method].order
     return MotionError(apart(model, whole.q[-1], half.q[-1]) / share, rounding, growth)
 
 

@@ -32,6 +32,8 @@ Stop = Callable[[float, Array, Array], bool]
 
 MAX_STEP_S = 1e60
 """Seconds: with a longer step products overflow."""
+MAX_STEPS = 2**53
+"""Beyond this, a float does not count one by one."""
 
 
 def simulate(
@@ -266,8 +268,8 @@ def _count(dt: float, steps: int | None, duration: float | None) -> int:
         return as_count(steps, "steps", 0)
     if duration is None or steps is not None:
         raise ValueError(f"steps, duration: expected one of the two, got {steps} and {duration}")
-    if not 0 <= as_number(duration, "duration") < np.inf:
-        raise ValueError(f"duration: expected seconds, 0 or more, got {duration}")
+    if not 0 <= as_number(duration, "duration") < MAX_STEPS * dt:
+        raise ValueError(f"duration: expected seconds, 0 or more and less than 2**53 steps, got {duration}")
     count = round(duration / dt)
     if abs(count * dt - duration) > 1e-9 * duration:
         whole = f"a whole number of steps of {dt} s"
