@@ -15,13 +15,14 @@ import numpy as np
 
 import twistwrench as tw
 from straightline import python_source
+from twistwrench.fast.program import Program
 
 QUANTITIES = ("crba", "rnea", "aba", "dqdd_dq")
 MAX_SCALARS = 5000  # operations: of more, XLA takes longer than anybody waits
 CALLS = 100
 
 
-def function(program: tw.Program, text: str) -> Callable[..., Any]:
+def function(program: Program, text: str) -> Callable[..., Any]:
     """Return what a text defines, with an array as its result."""
     names: dict[str, Any] = {}
     exec(text, names)

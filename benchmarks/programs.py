@@ -31,6 +31,7 @@ import twistwrench as tw
 from straightline.line import LEAVES, Line
 from straightline.number import Node, Number, Tape
 from twistwrench.fast import recording
+from twistwrench.fast.program import Program
 from twistwrench.timing import round_robin
 
 HERE = Path(__file__).parent
@@ -222,7 +223,7 @@ def over_scenes(times: dict[tuple[str, str, str], float]) -> list[dict[str, Any]
     return found
 
 
-def prepared(program: tw.Program) -> Callable[[], object]:
+def prepared(program: Program) -> Callable[[], object]:
     """Return a call of a program with 1000 states."""
     s = random_states(program.model, BATCH)
     values = {"q": s.q, "v": s.v, "a": s.a, "tau": s.a}

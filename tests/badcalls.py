@@ -405,7 +405,7 @@ def finite(result: Any) -> bool:
     if isinstance(result, np.ndarray | float | complex | np.number):
         numbers = np.asarray(result)
         return numbers.dtype.kind not in "fc" or bool(np.isfinite(numbers).all())
-    if isinstance(result, tw.Screw | tw.Model | tw.Scene | tw.Simulation | Costs):
+    if isinstance(result, tw.Screw | tw.Model | tw.Scene | tw.simulation.Simulation | Costs):
         return True  # with a pitch or limits that may be infinite
     if isinstance(result, tw.SE3):
         return finite(result.rotation) and finite(result.translation)

@@ -72,7 +72,7 @@ def motions(page: Path) -> dict[str, dict[str, Any]]:
     return {name: moving(names[name]) for name in MARK.findall(text)}
 
 
-def moving(motion: tw.Simulation) -> dict[str, Any]:
+def moving(motion: tw.simulation.Simulation) -> dict[str, Any]:
     """Return the pictures of a motion on the ground, in mm: of each the sticks, the forces, and what touches."""
     model, stepping = motion.model, motion.system.stepping
     assert stepping is not None

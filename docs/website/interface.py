@@ -30,10 +30,13 @@ PACKAGES = (*(name for name in tw.__all__ if isinstance(getattr(tw, name), Modul
 LAST = "errors"
 RETURNED = (
     *(f"algorithms.terms.{name}" for name in ("RneaTerms", "AbaTerms", "CrbaTerms", "CentroidalTerms", "Subtree")),
-    *("model.report.Entry", "model.report.LoadReport"),
-    "simulation.remark.Remark",
+    *("model.report.Entry", "model.report.LoadReport", "model.Reduction", "model.Rerooting", "model.ScrewAxes"),
+    *(f"contact.{name}" for name in ("ContactDynamics", "ContactForces", "Impact", "StanceMargins")),
+    *("simulation.Simulation", "simulation.remark.Remark", "simulation.growth.MotionError"),
+    *("algorithms.floating_base.Equilibrium", "fast.program.Program", "tracing.Trace"),
+    *("advice.Advice", "advice.Decision", "error_bounds.Accuracy", "identification.BaseParameters"),
 )
-"""What public functions return and has no public name itself: users do not make one by hand."""
+"""What public functions return, by the room that has it: users do not make one by hand."""
 TITLE = {"en": "Interface", "zh": "接口"}
 INTRO = {
     "en": "Every public name, by the folder and the file that hold it, in the chapter's order. Each entry says shape, "

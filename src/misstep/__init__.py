@@ -19,8 +19,8 @@ compare      right or wrong, entry by entry
 calls        calls of functions that may be wrong
 faults       wrong functions, made out of right ones
 verdict      the record of a judged function: its message, and the failing case
-program      a function as a tree that can be changed, and the values of its expressions
-grammar      small edits of a program, rule by rule
+listing      a function as a tree that can be changed, and the values of its expressions
+grammar      small edits of a listing, rule by rule
 differences  how wrong numbers differ from right ones, and the first wrong line
 search       a wrong answer as evidence, and one search for what explains it
 diagnose     the explanations in order, and one that is reported
@@ -49,11 +49,11 @@ An example without any course: a mean that is wrong by a slip nobody has listed.
 
 >>> import numpy as np
 >>> from misstep.diagnose import Field, diagnose
->>> from misstep.exercise import Part, Quantity
+>>> from misstep.exercise import Output, Part
 >>> def mean(x):
 ...     return np.sum(x) / len(x)
 >>> cases = [(np.array([1.0, 2.5, 4.0]),), (np.array([3.0, 0.25]),)]
->>> part = Part(solution=mean, returns=(Quantity("mean"),), cases=lambda rng: cases, slips={})
+>>> part = Part(solution=mean, returns=(Output("mean"),), cases=lambda rng: cases, slips={})
 >>> found = diagnose(part, np.median, [np.sum(x) for (x,) in cases], cases, Field(slips={}))
 >>> found.how, found.cure[0].en
 ('reference', 'Your numbers are those of a right solution that has `np.sum(x)` in place of `np.sum(x) / len(x)`.')

@@ -63,7 +63,7 @@ def interrupted(seconds: float) -> Iterator[None]:
 def _limited(seconds: float) -> Iterator[None]:
     """Raise in a block that takes longer, in CPU seconds of this process, where the system counts them.
 
-    Elsewhere only the rounds of loops are counted (`program`); outside stands the process that runs the answers.
+    Elsewhere only the rounds of loops are counted (`listing`); outside stands the process that runs the answers.
     """
     if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
         yield

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .exercise import Part, Quantity
+from .exercise import Output, Part
 
 __all__ = [
     *("FLOOR", "Array", "Value", "agree", "close", "copied_results", "differing", "is_one_array"),
@@ -27,7 +27,7 @@ DEEPEST = 20  # lists in lists of an answer; a list may also be in itself
 class Value(NamedTuple):
     """One thing that a function returned, as an array; None where it cannot be one."""
 
-    quantity: Quantity
+    output: Output
     array: Array | None
     raw: Any
 
@@ -78,7 +78,7 @@ def to_do(answer: Any) -> bool:
     return answer is Ellipsis
 
 
-def values(answer: Any, returns: Sequence[Quantity]) -> list[Value] | None:
+def values(answer: Any, returns: Sequence[Output]) -> list[Value] | None:
     """Return what a function returned, piece by piece; None where there are not as many pieces as asked for."""
     if len(returns) == 1:
         answer = [answer]
@@ -132,7 +132,7 @@ def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bo
             first, second = canonical(first, *arguments), canonical(second, *arguments)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
             return False
-        returns: Sequence[Quantity] = [Quantity("")] * (len(second) if isinstance(second, tuple) else 1)
+        returns: Sequence[Output] = [Output("")] * (len(second) if isinstance(second, tuple) else 1)
     else:
         returns = part.returns
     a, b = values(first, returns), values(second, returns)

@@ -17,7 +17,7 @@ from .compare import values
 from .differences import differences, first_wrong_line, structure
 from .exercise import Part, Slip
 from .grammar import Edit, Habits
-from .program import Program, source_with_helpers
+from .listing import Listing, source_with_helpers
 from .search import Arguments, Evidence, Found, Hypothesis, mutants, search, slips
 from .text import Text, say
 from .verdict import How, Verdict
@@ -115,7 +115,7 @@ def diagnose(
     special_cases : callable
         Returns further cases in which a change must be right.
     search_code : bool
-        Whether changed programs are run.
+        Whether changed code is run.
     """
     with muted(), np.errstate(over="ignore"):
         evidence = Evidence(part, function, answers, cases, special_cases)
@@ -146,7 +146,7 @@ class _Diagnoser:
         return search(evidence, slips(self.part), evidence.answers, max_cpu_s=MAX_CPU_S["slip"])
 
     @cached_property
-    def program(self) -> Program | None:
+    def listing(self) -> Listing | None:
         """The student's function, traced in the first wrong case; None where its source cannot be run by itself."""
         function, evidence = self.evidence.function, self.evidence
         source = source_with_helpers(function) if self.search_code and not evidence.is_typed else None
@@ -154,30 +154,30 @@ class _Diagnoser:
             return None
         given = dict(zip(self.part.names, evidence.cases[evidence.first]))
         try:
-            program = Program(function, source=source, given=given)
-            return program.trace(lambda f: evidence.call(f, evidence.first))
+            listing = Listing(function, source=source, given=given)
+            return listing.trace(lambda f: evidence.call(f, evidence.first))
         except Exception:  # it does not run again as it did
             return None
 
     @cached_property
     def own(self) -> Found:
         """The edits of the student's code that make it right."""
-        if self.program is None:
+        if self.listing is None:
             return Found()
         evidence = self.evidence
         seconds = MAX_CPU_S["own of slip" if self.listed.whole else "own"]
-        edits = mutants(self.program, "own", self.field.habits, evidence.chance_rules)
+        edits = mutants(self.listing, "own", self.field.habits, evidence.chance_rules)
         return search(evidence, edits, evidence.right, max_cpu_s=seconds)
 
     @cached_property
-    def solutions(self) -> list[Program]:
+    def solutions(self) -> list[Listing]:
         """The right solutions, traced in the first wrong case, and what they call."""
         found = []
         for way in (self.part.solution, *self.part.ways):
-            for listing in (way, *(self.part.beside if way is self.part.solution else ())):
-                if not inspect.isclass(listing):
-                    program = Program(listing, caller=None if listing is way else way)
-                    found.append(program.trace(lambda f: self.evidence.call(f, self.evidence.first)))
+            for function in (way, *(self.part.beside if way is self.part.solution else ())):
+                if not inspect.isclass(function):
+                    listing = Listing(function, caller=None if function is way else way)
+                    found.append(listing.trace(lambda f: self.evidence.call(f, self.evidence.first)))
         return found
 
     @cached_property
@@ -189,8 +189,8 @@ class _Diagnoser:
         raised = any(x is None for x in evidence.answers)
         if not self.search_code or evidence.is_typed or raised or not finite:
             return found
-        for program in self.solutions:
-            edits = mutants(program, "reference", self.field.habits, evidence.chance_rules)
+        for listing in self.solutions:
+            edits = mutants(listing, "reference", self.field.habits, evidence.chance_rules)
             one = search(evidence, edits, evidence.answers, max_cpu_s=MAX_CPU_S["reference"])
             if one.whole:
                 return one
@@ -298,8 +298,8 @@ class _Diagnoser:
         """Where it goes wrong, and how the numbers differ."""
         evidence = self.evidence
         line, first = None, evidence.first
-        if self.program is not None:
-            line = first_wrong_line(self.program, evidence.cases[first], self.solutions)
+        if self.listing is not None:
+            line = first_wrong_line(self.listing, evidence.cases[first], self.solutions)
         shown, telling = differences(self.part, evidence.answers[first], evidence.right[first])
         broken, help = [*self._broken_properties()][:1], (line,) if line else ()
         how: How = "located" if broken or help or telling else "numbers"

@@ -1,4 +1,4 @@
-"""How wrong results differ from right ones, and the first line of a program that goes wrong."""
+"""How wrong results differ from right ones, and the first line of a listing that goes wrong."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from .compare import FLOOR, Array, Value, values
 from .exercise import Part
-from .program import Program, equal, text_of
+from .listing import Listing, equal, text_of
 from .text import Text, say
 
 __all__ = ["differences", "first_wrong_line", "structure"]
@@ -47,12 +47,12 @@ def structure(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text 
     if len(given) < len(answers):
         return SOMETIMES_NONE
     split = [(values(a, part.returns) or [], values(b, part.returns) or []) for a, b in zip(answers, right)]
-    for k, quantity in enumerate(part.returns):
+    for k, output in enumerate(part.returns):
         pairs = [(a[k], b[k]) for a, b in split if a and b]
         found = [_uncomparable(a, b) for a, b in pairs]
         shapes = {a.array.shape for a, _ in pairs if a.array is not None}
         if len(pairs) > 1 and len(shapes) == 1 < len({np.shape(b.raw) for _, b in pairs}):
-            return FIXED_SIZE.fill(name=quantity.title, shape=shapes.pop())
+            return FIXED_SIZE.fill(name=output.title, shape=shapes.pop())
         if found and all(found):
             return found[0]
     return None
@@ -60,7 +60,7 @@ def structure(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text 
 
 def _uncomparable(got: Value, right: Value) -> Text | None:
     """Report another type or another shape, or numbers that are not finite."""
-    name, a, b = got.quantity.title, got.array, right.array
+    name, a, b = got.output.title, got.array, right.array
     kinds = ["s" if isinstance(x.raw, str) else "" if x.array is None else x.array.dtype.kind for x in (got, right)]
     wanted = {"s": Text("a string", "字符串"), "b": Text("True or False", "True 或 False")}
     if not kinds[0] or (kinds[0] != kinds[1] and {*kinds} & wanted.keys()):
@@ -84,7 +84,7 @@ def _of_value(got: Value, right: Value, rtol: float) -> tuple[list[Text], bool]:
     problem = _uncomparable(got, right)
     if problem is not None:
         return [problem], True
-    name, a, b = got.quantity.title, got.array, right.array
+    name, a, b = got.output.title, got.array, right.array
     if a is None or b is None:
         x, y = str(got.raw).strip(), str(right.raw).strip()
         text = Text("{x}, where a different text is expected", "得到 {x}，应为另一段文字")
@@ -99,7 +99,7 @@ def _of_value(got: Value, right: Value, rtol: float) -> tuple[list[Text], bool]:
         return [], False
     relation, tells = _relation(a, b, within)
     lines, some_right = [], False
-    for block, index in got.quantity.layout.blocks(b.shape) if not tells else ():
+    for block, index in got.output.layout.blocks(b.shape) if not tells else ():
         if _same(a[index], b[index], within):
             some_right = True
         else:
@@ -152,8 +152,8 @@ def _relation(a: Array, b: Array, within: Any, origin: tuple[int, ...] = ()) -> 
 # ---------------------------------------------------------------- the first wrong line
 
 
-def first_wrong_line(program: Program, arguments: Sequence[Any], solutions: Sequence[Program]) -> Text | None:
-    """Report the first statement of a traced program that computes what no right solution has, from what one has.
+def first_wrong_line(listing: Listing, arguments: Sequence[Any], solutions: Sequence[Listing]) -> Text | None:
+    """Report the first statement of a traced listing that computes what no right solution has, from what one has.
 
     A value is known if an argument or an expression of a right solution has it, whatever its sign.
     """
@@ -168,7 +168,7 @@ def first_wrong_line(program: Program, arguments: Sequence[Any], solutions: Sequ
     def is_known(value: Any) -> bool:
         return all(_occurs(x, stacked.get(x.shape)) or _occurs(-x, stacked.get(x.shape)) for x in _arrays(value))
 
-    statements = [*_statements(program)]
+    statements = [*_statements(listing)]
     for k, (node, value, used) in enumerate(statements):
         if not [*_arrays(value)] or is_known(value) or not all(map(is_known, used)):
             continue
@@ -185,10 +185,10 @@ def _occurs(x: Array, every: Array | None) -> bool:
     return bool((np.abs(every - x) <= within).all(axis=tuple(range(1, every.ndim))).any())
 
 
-def _statements(program: Program) -> Iterator[tuple[Any, Any, list[Any]]]:
+def _statements(listing: Listing) -> Iterator[tuple[Any, Any, list[Any]]]:
     """Yield each assignment and return that has run, with its value and the values that it uses."""
-    used, owner = list[Any](), program.statements
-    for node, value in program.events:
+    used, owner = list[Any](), listing.statements
+    for node, value in listing.events:
         statement = owner[id(node)]
         if isinstance(statement, ast.Assign | ast.Return) and node is statement.value:
             yield statement, value, used

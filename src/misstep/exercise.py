@@ -13,7 +13,7 @@ import numpy as np
 
 from .text import Text, as_text, read
 
-__all__ = ["PLAIN", "Exercise", "Kind", "Layout", "Part", "Property", "Quantity", "Slip"]
+__all__ = ["PLAIN", "Exercise", "Kind", "Layout", "Output", "Part", "Property", "Slip"]
 
 Kind = Literal["code", "number", "explain", "prove"]
 Cases = Callable[[np.random.Generator], Sequence[tuple[Any, ...]]]
@@ -55,7 +55,7 @@ PLAIN = Layout()
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Output:
     """One thing that a function returns: its symbol, how its numbers are arranged, its unit, its name in Chinese."""
 
     name: str
@@ -114,7 +114,7 @@ class Part(_Written):
         The reference. Its name and its signature are those of the student's function; its source is the solution.
     beside : tuple of callable
         What the solution calls and is shown with it: the listing of an algorithm, and what prepares its arguments.
-    returns : tuple of Quantity
+    returns : tuple of Output
         What it returns; a tuple of several where there are several.
     cases : callable
         From a random generator to a list of argument tuples. Numbers that need none: ``[()]``.
@@ -142,7 +142,7 @@ class Part(_Written):
     """
 
     solution: Callable[..., Any]
-    returns: tuple[Quantity, ...]
+    returns: tuple[Output, ...]
     cases: Cases
     slips: Mapping[str, Callable[..., Any]]
     beside: tuple[Callable[..., Any], ...] = ()

@@ -1,4 +1,4 @@
-"""Small edits of a program, rule by rule: what somebody writes who means the right thing.
+"""Small edits of a listing, rule by rule: what somebody writes who means the right thing.
 
 Most edits are rows of `REWRITES`: what stands in the code, and what may stand there. A single capital letter stands for
 any expression, but `M` and `N` for matrices, `S` for a square one and `V` for an array: what an
@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .program import Change, Place, Program, equal, locate, text_of
+from .listing import Change, Listing, Place, equal, locate, text_of
 
 __all__ = ["RULES", "Edit", "Habits", "edits"]
 
@@ -105,7 +105,7 @@ class Rewrite(NamedTuple):
 
 
 class Edit(NamedTuple):
-    """A small change of a program: by which rule, what is put where, and how its line read before and reads after.
+    """A small change of a listing: by which rule, what is put where, and how its line read before and reads after.
 
     `how` is "replace" where `after` stands in place of `before`, "drop" where nothing does, or what is done to it.
     """
@@ -131,12 +131,12 @@ class Habits:
     rearranged: tuple[str, ...] = ()
 
 
-def edits(program: Program, habits: Habits = Habits()) -> Iterator[Edit]:
-    """Yield the small edits of a traced program, rule by rule; after each rule, its edits in several places at once."""
-    context = Context(program, habits)
+def edits(listing: Listing, habits: Habits = Habits()) -> Iterator[Edit]:
+    """Yield the small edits of a traced listing, rule by rule; after each rule, its edits in several places at once."""
+    context = Context(listing, habits)
     for rule in RULES:
         alike: dict[tuple[str, str], list[Edit]] = {}
-        made = [_made(rule, place, new) for place in program.places for new in context.replacements(rule, place)]
+        made = [_made(rule, place, new) for place in listing.places for new in context.replacements(rule, place)]
         if rule == "sign":  # a plus for a minus before a minus more, and that as near to the result as may be
             made.sort(key=lambda edit: (isinstance(edit.changes[0].new, ast.UnaryOp), -edit.line))
         for edit in made:
@@ -211,10 +211,10 @@ ROWS = tuple(_rows())
 
 
 class Context:
-    """A program that has run, with what stands at hand in it."""
+    """A listing that has run, with what stands at hand in it."""
 
-    def __init__(self, program: Program, habits: Habits) -> None:
-        self.program, self.habits = program, habits
+    def __init__(self, listing: Listing, habits: Habits) -> None:
+        self.listing, self.habits = listing, habits
 
     def replacements(self, rule: str, place: Place) -> Iterator[Any]:
         """Yield what a rule puts in a place."""
@@ -256,24 +256,24 @@ class Context:
 
     def shape(self, node: Any) -> tuple[int, ...] | None:
         """Return the shape of a number or an array; None of anything else, and of what did not run."""
-        value = self.program.value(node)
+        value = self.listing.value(node)
         if isinstance(value, bool | np.bool_) or not isinstance(value, np.ndarray | np.number | float | int):
             return None
         return np.shape(value)
 
     def kind(self, node: Any) -> Any:
         """Return what two expressions must have in common to be taken for each other; None of what did not run."""
-        return _kind(self.program.value(node))
+        return _kind(self.listing.value(node))
 
     @cached_property
     def at_hand(self) -> dict[str, Any]:
-        """The values of the names, entries and attributes of the program, by their text."""
+        """The values of the names, entries and attributes of the listing, by their text."""
         found: dict[str, Any] = {}
-        for place in self.program.places:
+        for place in self.listing.places:
             node = place.node
-            if isinstance(node, ast.Name | ast.Subscript | ast.Attribute) and self.program.value(node) is not None:
-                found.setdefault(text_of(node), self.program.value(node))
-        return {**self.program.given, **found}
+            if isinstance(node, ast.Name | ast.Subscript | ast.Attribute) and self.listing.value(node) is not None:
+                found.setdefault(text_of(node), self.listing.value(node))
+        return {**self.listing.given, **found}
 
 
 def _kind(value: Any) -> Any:
@@ -415,16 +415,16 @@ def other_name(context: Context, place: Place) -> Iterator[Any]:
             yield ast.Constant(other)
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         yield from (code(text) for text, known in context.at_hand.items() if isinstance(known, str))
-        lists = [known for known in context.program.given.values() if isinstance(known, list)]
+        lists = [known for known in context.listing.given.values() if isinstance(known, list)]
         listed = {x for known in lists for x in known if isinstance(x, str)}
         yield from (ast.Constant(x) for x in sorted(listed - {node.value}))
-    if isinstance(node, ast.Name) and context.program.value(node) is None and node.id not in context.program.names:
-        modules = {name: x for name, x in context.program.names.items() if hasattr(x, "__path__")}
+    if isinstance(node, ast.Name) and context.listing.value(node) is None and node.id not in context.listing.names:
+        modules = {name: x for name, x in context.listing.names.items() if hasattr(x, "__path__")}
         yield from (code(f"{name}.{node.id}") for name, x in modules.items() if hasattr(x, node.id))
     held = isinstance(node, ast.Name) and isinstance(place.parent, ast.Subscript) and place.field == "value"
     named = isinstance(node, ast.Name | ast.Subscript | ast.Attribute) and _is_read(node) and (held or _is_term(place))
-    count = isinstance(node, ast.BinOp) and type(context.program.value(node)) is int
-    value, kind = context.program.value(node), context.kind(node)
+    count = isinstance(node, ast.BinOp) and type(context.listing.value(node)) is int
+    value, kind = context.listing.value(node), context.kind(node)
     if (named or count) and value is not None:
         for text, known in context.at_hand.items():
             alike = _kind(known) == kind and not isinstance(known, str) and not equal(known, value)

@@ -18,7 +18,7 @@ from .calls import call_or_none, cheapest_case, keeps_arguments
 from .compare import agree, close, copied_results, values
 from .exercise import Part
 from .grammar import RULES, Edit, Habits, edits
-from .program import Program
+from .listing import Listing
 
 __all__ = ["Arguments", "Evidence", "Found", "Hypothesis", "mutants", "search", "slips"]
 
@@ -140,10 +140,10 @@ def slips(part: Part) -> Iterator[Hypothesis]:
         yield Hypothesis("slip", function, slip=name)
 
 
-def mutants(program: Program, origin: Origin, habits: Habits, without: Sequence[str] = ()) -> Iterator[Hypothesis]:
-    """Yield the edits of a program that compile, but for those of some rules."""
-    for edit in edits(program, habits):
-        if edit.rule not in without and (function := program.mutant(edit.changes)) is not None:
+def mutants(listing: Listing, origin: Origin, habits: Habits, without: Sequence[str] = ()) -> Iterator[Hypothesis]:
+    """Yield the edits of a listing that compile, but for those of some rules."""
+    for edit in edits(listing, habits):
+        if edit.rule not in without and (function := listing.mutant(edit.changes)) is not None:
             yield Hypothesis(origin, function, edit=edit)
 
 

@@ -211,7 +211,7 @@ def failing_case(
         for a, b in zip(right or [], got or []):
             x, y = a.array, b.array
             if x is not None and y is not None and x.shape == y.shape and (not is_measured or np.isfinite(y).all()):
-                compared.append(Compared(a.quantity.label, x, y, differing(y, x, part.rtol)))
+                compared.append(Compared(a.output.label, x, y, differing(y, x, part.rtol)))
     course = exercise.course
     return Case(part.name, number, seed, inputs, tuple(compared), course.command, course.call)
 
@@ -224,7 +224,7 @@ def whole(part: Part, arguments: tuple[Any, ...], language: Language) -> str:
     with np.printoptions(floatmode="unique", threshold=10**6, linewidth=120):
         lines = [f"{name} = {value!r}" for name, value in zip(part.names, arguments)]
         lines += ["", EXPECTED.of(language) + ":"]
-        lines += [f"{value.quantity.title.of(language)} = {value.raw!r}" for value in right]
+        lines += [f"{value.output.title.of(language)} = {value.raw!r}" for value in right]
     return "\n".join(lines)
 
 

@@ -7,7 +7,7 @@ from . import model as model
 from . import scene as scene
 from . import simulation as simulation
 from . import validate as validate
-from .advice import Advice, Decision, advise
+from .advice import advise
 from .algorithms.aba import aba, aba_terms
 from .algorithms.articulated import articulated_inertia
 from .algorithms.centroidal import (
@@ -22,7 +22,7 @@ from .algorithms.crba import crba, crba_terms
 from .algorithms.delassus import delassus_matrix, operational_space_inertia
 from .algorithms.energy import kinetic_energy, potential_energy
 from .algorithms.factorization import ltdl, ltl, solve_mass_matrix
-from .algorithms.floating_base import Equilibrium, contact_jacobian, selection_matrix, static_equilibrium
+from .algorithms.floating_base import contact_jacobian, selection_matrix, static_equilibrium
 from .algorithms.frame_wrench import frame_wrench
 from .algorithms.inverse_mass import inverse_mass_matrix
 from .algorithms.kinematics import forward_kinematics, frame_bias_acceleration, frame_jacobian, frame_placement
@@ -41,16 +41,12 @@ from .algorithms.whole_body import Dynamics, dynamics
 from .contact import (
     Baumgarte,
     Contact,
-    ContactDynamics,
-    ContactForces,
     Coupling,
     DistanceConstraint,
-    Impact,
     LoopClosure,
     PointContact,
     SlidingContact,
     SphereContact,
-    StanceMargins,
     SurfaceContact,
     WheelContact,
     constraint_bias,
@@ -63,24 +59,23 @@ from .contact import (
     project_state,
     stance_margins,
 )
-from .error_bounds import Accuracy, accuracy
+from .error_bounds import accuracy
 from .errors import FrameError, ModelError, NameNotFound, ShapeError, SingularError
 from .exercises.asking import ask
 from .fast.compilation import compile
-from .fast.program import Program
-from .identification import BaseParameters, base_parameters
+from .identification import base_parameters
 from .loading import load, robots
 from .model.builder import Builder
 from .model.editing import attach, replace_inertia
 from .model.joints import Continuous, FreeFlyer, Helical, Planar, Prismatic, Revolute, Spherical
 from .model.model import Model
-from .model.reduction import Reduction, lock_joints
-from .model.rerooting import Rerooting, reroot
+from .model.reduction import lock_joints
+from .model.rerooting import reroot
 from .model.samples import chain, random_tree
-from .model.serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
+from .model.serial import from_dh, from_screw_axes, screw_axes
 from .scene import Scene
-from .simulation import DivergenceError, Ground, Simulation, simulate
-from .simulation.growth import MotionError, motion_error
+from .simulation import DivergenceError, Ground, simulate
+from .simulation.growth import motion_error
 from .spatial.cross import cross_force, cross_motion
 from .spatial.exponential import exp6, interpolate, log6
 from .spatial.inertia import SpatialInertia
@@ -90,33 +85,25 @@ from .spatial.plucker import SE3, force_transform, motion_transform
 from .spatial.rotation import exp3, log3, skew, unskew
 from .spatial.twist import Screw, Twist, hat, screw, vee
 from .spatial.wrench import Wrench, center_of_pressure, power
-from .tracing import Trace, trace
+from .tracing import trace
 from .viewing import view
 
 __version__: str
 
 __all__ = [
     "SE3",
-    "Accuracy",
-    "Advice",
-    "BaseParameters",
     "Baumgarte",
     "Builder",
     "Contact",
-    "ContactDynamics",
-    "ContactForces",
     "Continuous",
     "Coupling",
-    "Decision",
     "DistanceConstraint",
     "DivergenceError",
     "Dynamics",
-    "Equilibrium",
     "FrameError",
     "FreeFlyer",
     "Ground",
     "Helical",
-    "Impact",
     "Jexp3",
     "Jexp6",
     "Jlog3",
@@ -125,28 +112,20 @@ __all__ = [
     "MimicModel",
     "Model",
     "ModelError",
-    "MotionError",
     "NameNotFound",
     "Planar",
     "PointContact",
     "Prismatic",
-    "Program",
-    "Reduction",
-    "Rerooting",
     "Revolute",
     "Scene",
     "Screw",
-    "ScrewAxes",
     "ShapeError",
-    "Simulation",
     "SingularError",
     "SlidingContact",
     "SpatialInertia",
     "SphereContact",
     "Spherical",
-    "StanceMargins",
     "SurfaceContact",
-    "Trace",
     "Twist",
     "WheelContact",
     "Wrench",

@@ -3,7 +3,7 @@
 import numpy as np
 
 from misstep.diagnose import Field
-from misstep.exercise import Part, Quantity, Slip
+from misstep.exercise import Output, Part, Slip
 from misstep.text import Text
 
 
@@ -48,7 +48,7 @@ def _stiffness_cases(rng):
 
 PROJECTILE = Part(
     solution=projectile,
-    returns=(Quantity("x, y"),),
+    returns=(Output("x, y"),),
     cases=_projectile_cases,
     slips={
         "falls-up": lambda speed, angle, t: (
@@ -56,11 +56,11 @@ PROJECTILE = Part(
         )
     },
 )
-CENTER = Part(solution=center, returns=(Quantity("c"),), cases=_center_cases, slips={})
-STIFFNESS = Part(solution=stiffness, returns=(Quantity("K"),), cases=_stiffness_cases, slips={})
+CENTER = Part(solution=center, returns=(Output("c"),), cases=_center_cases, slips={})
+STIFFNESS = Part(solution=stiffness, returns=(Output("K"),), cases=_stiffness_cases, slips={})
 SPREAD = Part(
     solution=mean_and_spread,
-    returns=(Quantity("mean"), Quantity("spread")),
+    returns=(Output("mean"), Output("spread")),
     cases=lambda rng: [(rng.standard_normal(n),) for n in (3, 4, 7)],
     slips={"divided-by-n": lambda x: (np.mean(x), np.std(x))},
 )

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from misstep.differences import differences
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 
 A = np.array([[4.0, 1, 2], [1, 5, 3], [2, 3, 6]])
 B = np.arange(9.0).reshape(3, 3) + 0.5
 
 
 def part(n=1):
-    return Part(solution=A.copy, returns=tuple(Quantity(f"r{k}") for k in range(n)), cases=lambda rng: [()], slips={})
+    return Part(solution=A.copy, returns=tuple(Output(f"r{k}") for k in range(n)), cases=lambda rng: [()], slips={})
 
 
 @pytest.mark.parametrize(

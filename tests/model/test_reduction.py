@@ -30,7 +30,7 @@ def error(ours, right, scale=None):
     return largest(slow.as_mpmath(ours) - right if np.asarray(right).dtype == object else ours - right) / (size or 1)
 
 
-def errors(reduction: tw.Reduction, q, v, a) -> dict[str, float]:
+def errors(reduction: tw.model.Reduction, q, v, a) -> dict[str, float]:
     """Every quantity of the small model beside that of the full one with the held joints at rest."""
     full, small, kept = reduction.full, reduction.model, reduction.kept_v
     (Q, V), (_, A) = reduction.expand(q, v), reduction.expand(q, a)

@@ -309,11 +309,11 @@ def test_nothing_forbidden_stands_in_the_source():
 
 
 def interface() -> Iterator[tuple[str, ast.ClassDef | Function]]:
-    """Yield place and node of every function and class that `twistwrench` and its three folders of functions offer."""
+    """Yield place and node of every function and class that `twistwrench` and six of its folders offer."""
     for node in ast.walk(ast.parse((SOURCE / "__init__.pyi").read_text(encoding="utf-8"))):
         if isinstance(node, ast.ImportFrom) and node.module:
             yield from offered_nodes(node.module.replace(".", "/"), {alias.name for alias in node.names})
-    for folder in ("bridge", "fast", "newton_euler_3d"):
+    for folder in ("bridge", "contact", "fast", "newton_euler_3d", "simulation", "tracing"):
         yield from offered_nodes(folder, offered(f"{folder}/__init__.py"))
 
 

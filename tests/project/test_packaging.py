@@ -128,6 +128,19 @@ def test_every_conversion_of_the_bridge_goes_both_ways():
     assert there
 
 
+@pytest.mark.parametrize(
+    ("room", "names"),
+    [
+        ("contact", "ContactDynamics ContactForces Impact StanceMargins"),
+        ("model", "Reduction Rerooting ScrewAxes"),
+        ("simulation", "Simulation"),
+    ],
+)
+def test_what_nobody_constructs_stands_in_its_room(room, names):
+    assert set(names.split()) <= set(getattr(tw, room).__all__)
+    assert not set(names.split()) & set(dir(tw))
+
+
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="has no attribute 'fourward_kinematics'"):
         _ = tw.fourward_kinematics
@@ -241,7 +254,8 @@ def test_the_wheel_holds_every_section_and_every_robot_and_nothing_else(built):
         for path in (ROOT / "src").rglob(kind)
     }
     robots = {f"twistwrench/models/{path.name}" for path in (ROOT / "models").iterdir() if path.is_file()}
-    assert inside == sections | robots | {"twistwrench/py.typed", "straightline/py.typed"}
+    typed = {f"{package}/py.typed" for package in ("misstep", "straightline", "twistwrench")}
+    assert inside == sections | robots | typed
     assert len(MODELS) >= 6
     assert any(name.endswith(".dist-info/licenses/LICENSE") for name in names)
 

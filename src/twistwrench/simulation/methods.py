@@ -46,6 +46,12 @@ class Method:
         What it keeps of the laws of mechanics, at any dt.
     contacts : bool
         Whether it can let points and soles stick.
+
+    Examples
+    --------
+    >>> import twistwrench as tw
+    >>> tw.simulation.METHODS["rk4"].order
+    4
     """
 
     title: str

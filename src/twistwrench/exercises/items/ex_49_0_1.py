@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import transposed
 
 from ..wrong import faulty
@@ -23,7 +23,7 @@ EXERCISE = Exercise(
     parts=(
         Part(
             solution=skew,
-            returns=(Quantity("[w]×"),),
+            returns=(Output("[w]×"),),
             cases=lambda rng: [(rng.standard_normal(3),) for _ in range(5)],
             slips={
                 "skew-sign": transposed(skew),

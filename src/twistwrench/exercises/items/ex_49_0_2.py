@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import as_column
 
 from ...spatial import exp3
@@ -22,7 +22,7 @@ EXERCISE = Exercise(
     parts=(
         Part(
             solution=act,
-            returns=(Quantity("x_A", unit="m"),),
+            returns=(Output("x_A", unit="m"),),
             cases=lambda rng: [
                 (exp3(rng.standard_normal(3)), rng.standard_normal(3), rng.standard_normal(3)) for _ in range(5)
             ],

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after, before, transposed
 
 from ..layouts import MOTION_TRANSFORM
@@ -40,7 +40,7 @@ EXERCISE = Exercise(
         Part(
             solution=adjoint,
             ways=(_by_blocks,),
-            returns=(Quantity("Ad_T", MOTION_TRANSFORM),),
+            returns=(Output("Ad_T", MOTION_TRANSFORM),),
             cases=_cases,
             slips={
                 "inverse-transform": before(adjoint, np.linalg.inv, which=0),

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 __all__ = ["EXERCISE", "count"]
 
@@ -41,7 +41,7 @@ EXERCISE = Exercise(
     parts=(
         Part(
             solution=count,
-            returns=(Quantity("nq"), Quantity("nv")),
+            returns=(Output("nq"), Output("nv")),
             cases=_cases,
             edges=lambda rng: [([kind],) for kind in ("free_flyer", "revolute", "continuous", "spherical")],
             slips={

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import before
 
 from ..wrong import faulty
@@ -39,7 +39,7 @@ EXERCISE = Exercise(
     parts=(
         Part(
             solution=newton_euler,
-            returns=(Quantity("τ", unit="N m"), Quantity("f", unit="N")),
+            returns=(Output("τ", unit="N m"), Output("f", unit="N")),
             cases=_cases,
             edges=_along_its_axes,
             slips={

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ..layouts import INERTIA, JOINTS_MAP
 from ..robots import larger, states
@@ -36,7 +36,7 @@ def _bodies(rng: Any) -> Any:
 
 SPLIT = Part(
     solution=split_map,
-    returns=(Quantity("A_Gb", INERTIA), Quantity("A_Gj", JOINTS_MAP)),
+    returns=(Output("A_Gb", INERTIA), Output("A_Gj", JOINTS_MAP)),
     cases=lambda rng: [*states(rng), *larger(rng)],
     slips={
         "swapped-halves": faulty(split_map, ("tw.centroidal_map(model, q)", "swap(tw.centroidal_map(model, q))")),
@@ -67,7 +67,7 @@ SPLIT = Part(
 
 COLUMNS = Part(
     solution=base_columns,
-    returns=(Quantity("A_Gb", INERTIA),),
+    returns=(Output("A_Gb", INERTIA),),
     cases=_bodies,
     slips={
         "com-dropped": faulty(base_columns, ("-m * tw.skew(c) @ R", "np.zeros((3, 3))")),

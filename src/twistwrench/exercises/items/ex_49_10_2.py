@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ..robots import larger, states
 from ..wrong import faulty
@@ -62,7 +62,7 @@ def _other_order(v: Any) -> Any:
 
 OURS = Part(
     solution=linear_momentum,
-    returns=(Quantity("l_G", unit="kg m/s"),),
+    returns=(Output("l_G", unit="kg m/s"),),
     cases=_maps,
     edges=lambda rng: [(tw.centroidal_map(model, q), rng.standard_normal(model.nv)) for model, q in larger(rng)],
     slips={
@@ -76,7 +76,7 @@ OURS = Part(
 
 THEIRS = Part(
     solution=pinocchio_linear_momentum,
-    returns=(Quantity("l_G", unit="kg m/s"),),
+    returns=(Output("l_G", unit="kg m/s"),),
     cases=_in_pinocchio_order,
     edges=lambda rng: [(rng.standard_normal((6, n)), rng.standard_normal(n)) for n in (7, 30)],
     slips={
@@ -89,7 +89,7 @@ THEIRS = Part(
 
 LINKS = Part(
     solution=momentum_of_links,
-    returns=(Quantity("m v_G", unit="kg m/s"),),
+    returns=(Output("m v_G", unit="kg m/s"),),
     cases=lambda rng: [*states(rng, vectors=1)],
     slips={
         "frame-for-com": faulty(momentum_of_links, (" + np.cross(V[:3], body.com)", "")),

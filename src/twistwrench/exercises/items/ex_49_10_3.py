@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ..robots import states
 from ..wrong import faulty
@@ -66,7 +66,7 @@ def _rate(model: Any, q: Any, v: Any, a: Any) -> Any:
 ACCELERATION = Part(
     solution=com_acceleration,
     ways=(_by_components,),
-    returns=(Quantity("p̈_G", unit="m/s²"),),
+    returns=(Output("p̈_G", unit="m/s²"),),
     cases=_walks,
     edges=lambda rng: [(np.array([0.1 + x, 0.2, 0.8]), np.array([0.1, 0.2]), k, 16.0) for x, k in _above(rng)],
     slips={
@@ -88,7 +88,7 @@ ACCELERATION = Part(
 PACE = Part(
     solution=rate_at_pace,
     ways=(_by_scaling,),
-    returns=(Quantity("k̇_G", unit="N m"),),
+    returns=(Output("k̇_G", unit="N m"),),
     cases=_gaits,
     slips={
         "speed-once": lambda model, q, v, a, s: s * _rate(model, q, v, a)[:3],

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after, before
 
 from ..layouts import CONTACT_JACOBIAN, JOINT_SPACE
@@ -76,7 +76,7 @@ def _jacobians(rng: Any) -> Any:
 
 RANDOM = Part(
     solution=finite_limits,
-    returns=(Quantity("lower", zh="下限 lower"), Quantity("upper", zh="上限 upper")),
+    returns=(Output("lower", zh="下限 lower"), Output("upper", zh="上限 upper")),
     cases=_limits,
     slips={
         "limits-all": faulty(
@@ -107,7 +107,7 @@ RANDOM = Part(
 
 MATRIX = Part(
     solution=by_mass_matrix,
-    returns=(Quantity("τ", JOINT_SPACE), Quantity("q̈", JOINT_SPACE)),
+    returns=(Output("τ", JOINT_SPACE), Output("q̈", JOINT_SPACE)),
     cases=_dynamics,
     slips={
         "doubled-off-diagonal": before(by_mass_matrix, doubled, which=0),
@@ -122,7 +122,7 @@ MATRIX = Part(
 
 VELOCITY = Part(
     solution=com_velocity,
-    returns=(Quantity("v_G", unit="m/s"),),
+    returns=(Output("v_G", unit="m/s"),),
     cases=lambda rng: [(rng.standard_normal(6), float(rng.uniform(5, 80))) for _ in range(3)],
     slips={
         "angular-for-linear": lambda h_G, m: h_G[3:] / m,
@@ -133,7 +133,7 @@ VELOCITY = Part(
 
 CONTACTS = Part(
     solution=contact_rows,
-    returns=(Quantity("J_c", CONTACT_JACOBIAN),),
+    returns=(Output("J_c", CONTACT_JACOBIAN),),
     cases=_jacobians,
     slips={
         "angular-for-linear": lambda J: np.vstack([J_foot[3:] for J_foot in J]),

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ...model import chain
 from ..robots import robot, small_robot
@@ -56,7 +56,7 @@ def _again(rng: Any) -> Any:
 
 COUNT = Part(
     solution=count_transforms,
-    returns=(Quantity("RNEA"), Quantity("CRBA")),
+    returns=(Output("RNEA"), Output("CRBA")),
     cases=_trees,
     slips={
         "transforms-two": faulty(count_transforms, ("3 * bodies", "2 * bodies")),
@@ -73,7 +73,7 @@ COUNT = Part(
 
 GROWTH = Part(
     solution=growth,
-    returns=(Quantity("k"),),
+    returns=(Output("k"),),
     cases=_times,
     edges=_again,
     slips={

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import before, negated, times
 
 from ..layouts import JOINT_SPACE
@@ -84,7 +84,7 @@ ALL_ROWS = faulty(standing_forces, ("J_c[:, :6].mT, g[:6]", "J_c.mT, g"))
 
 MAP = Part(
     solution=gravity_from_map,
-    returns=(Quantity("g", JOINT_SPACE),),
+    returns=(Output("g", JOINT_SPACE),),
     cases=_maps,
     edges=lambda rng: [(tw.centroidal_map(*larger(rng)[0]),)],
     slips={
@@ -100,7 +100,7 @@ MAP = Part(
 
 FORCES = Part(
     solution=standing_forces,
-    returns=(Quantity("λ", unit="N"), Quantity("τ", unit="N m")),
+    returns=(Output("λ", unit="N"), Output("τ", unit="N m")),
     cases=_arrays,
     edges=_in_line,
     slips={
@@ -136,7 +136,7 @@ FORCES = Part(
 
 LOADS = Part(
     solution=standing_loads,
-    returns=(Quantity("front", unit="N", zh="前脚"), Quantity("rear", unit="N", zh="后脚")),
+    returns=(Output("front", unit="N", zh="前脚"), Output("rear", unit="N", zh="后脚")),
     cases=lambda rng: [()],
     rtol=5e-4,
     slips={

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after
 
 from ..layouts import CENTROIDAL_MAP, JACOBIAN, JOINT_SPACE
@@ -109,7 +109,7 @@ def _turning(v: Any) -> Any:
 
 MAP = Part(
     solution=map_from_pinocchio,
-    returns=(Quantity("A_G", CENTROIDAL_MAP),),
+    returns=(Output("A_G", CENTROIDAL_MAP),),
     cases=_robots,
     edges=_with_balls,
     slips={
@@ -127,7 +127,7 @@ MAP = Part(
 
 JACOBIAN_PART = Part(
     solution=jacobian_from_pinocchio,
-    returns=(Quantity("J", JACOBIAN),),
+    returns=(Output("J", JACOBIAN),),
     cases=_frames,
     edges=lambda rng: [(model, q, model.names[-1]) for model, q in _with_balls(rng)],
     slips={
@@ -151,7 +151,7 @@ JACOBIAN_PART = Part(
 
 ACCELERATION = Part(
     solution=acceleration_from_pinocchio,
-    returns=(Quantity("q̈", JOINT_SPACE),),
+    returns=(Output("q̈", JOINT_SPACE),),
     cases=partial(_robots, vectors=2),
     edges=partial(_with_balls, vectors=2),
     rtol=1e-8,

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 __all__ = ["EXERCISE", "sizes"]
 
@@ -20,10 +20,10 @@ EXERCISE = Exercise(
         Part(
             solution=sizes,
             returns=(
-                Quantity("nq (quaternion)", zh="nq（四元数）"),
-                Quantity("nv (quaternion)", zh="nv（四元数）"),
-                Quantity("nq (Euler)", zh="nq（欧拉角）"),
-                Quantity("nv (Euler)", zh="nv（欧拉角）"),
+                Output("nq (quaternion)", zh="nq（四元数）"),
+                Output("nv (quaternion)", zh="nv（四元数）"),
+                Output("nq (Euler)", zh="nq（欧拉角）"),
+                Output("nv (Euler)", zh="nv（欧拉角）"),
             ),
             cases=lambda rng: [()],
             slips={

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ..wrong import faulty
 
@@ -35,7 +35,7 @@ EXERCISE = Exercise(
     parts=(
         Part(
             solution=polishing_torques,
-            returns=(Quantity("τ", unit="N m"),),
+            returns=(Output("τ", unit="N m"),),
             cases=_cases,
             edges=_singular,
             slips={

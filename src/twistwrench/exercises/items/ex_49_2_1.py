@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after, before
 
 from ..layouts import TWIST
@@ -54,7 +54,7 @@ def _cases(rng: Any) -> Any:
 TWIST_OF_FOOT = Part(
     solution=foot_twist,
     ways=(_by_vectors,),
-    returns=(Quantity("V", TWIST),),
+    returns=(Output("V", TWIST),),
     cases=_cases,
     slips={
         "swapped-halves": swapped(foot_twist),
@@ -95,7 +95,7 @@ TWIST_OF_FOOT = Part(
 
 SPEED_OF_FOOT = Part(
     solution=foot_speed,
-    returns=(Quantity("|v|", unit="m/s"),),
+    returns=(Output("|v|", unit="m/s"),),
     cases=lambda rng: [()],
     rtol=1e-3,
     slips={

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after, before, transposed
 
 from ..layouts import POSE
@@ -38,7 +38,7 @@ def _cases(rng: Any) -> Any:
 
 MATRIX = Part(
     solution=twist_matrix,
-    returns=(Quantity("[V]∧", POSE),),
+    returns=(Output("[V]∧", POSE),),
     cases=_cases,
     slips={
         "hat-one": faulty(twist_matrix, ("[0, 0, 0, 0]]", "[0, 0, 0, 1]]")),
@@ -57,7 +57,7 @@ MATRIX = Part(
 
 ARC = Part(
     solution=arc,
-    returns=(Quantity("T", POSE),),
+    returns=(Output("T", POSE),),
     cases=_cases,
     slips={
         "first-order-exp": lambda *V: np.eye(4) + twist_matrix(*V),

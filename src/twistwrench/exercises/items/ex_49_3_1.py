@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import before
 
 from ..layouts import FORCE_TRANSFORM, MOTION_TRANSFORM
@@ -31,9 +31,9 @@ EXERCISE = Exercise(
         Part(
             solution=translation_transforms,
             returns=(
-                Quantity("X", MOTION_TRANSFORM),
-                Quantity("X⁻¹", MOTION_TRANSFORM),
-                Quantity("X*", FORCE_TRANSFORM),
+                Output("X", MOTION_TRANSFORM),
+                Output("X⁻¹", MOTION_TRANSFORM),
+                Output("X*", FORCE_TRANSFORM),
             ),
             cases=lambda rng: [(rng.standard_normal(3),) for _ in range(5)],
             slips={

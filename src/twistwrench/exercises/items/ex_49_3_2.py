@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import before
 
 from ...spatial import exp3
@@ -31,7 +31,7 @@ def plucker(R: Any, p: Any) -> Any:
 
 ROTATION = Part(
     solution=rotation_transform,
-    returns=(Quantity("X", MOTION_TRANSFORM),),
+    returns=(Output("X", MOTION_TRANSFORM),),
     cases=lambda rng: [(exp3(rng.standard_normal(3)),) for _ in range(4)],
     slips={
         "rotation-transposed": before(rotation_transform, lambda R: R.mT, which=0),
@@ -44,7 +44,7 @@ ROTATION = Part(
 
 BOTH = Part(
     solution=plucker,
-    returns=(Quantity("X", MOTION_TRANSFORM), Quantity("X*", FORCE_TRANSFORM)),
+    returns=(Output("X", MOTION_TRANSFORM), Output("X*", FORCE_TRANSFORM)),
     cases=lambda rng: [(exp3(rng.standard_normal(3)), rng.standard_normal(3)) for _ in range(5)],
     slips={
         "coupling-dropped": faulty(plucker, ("skew(p) @ R", "0 * R")),

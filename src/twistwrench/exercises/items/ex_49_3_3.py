@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ...spatial import exp3
 from ..layouts import MOTION_TRANSFORM
@@ -44,8 +44,8 @@ EXERCISE = Exercise(
             solution=chain_two_ways,
             given='X = mine("plucker")  # X(R, p) gives X and X*',
             returns=(
-                Quantity("X of T_AB T_BC", MOTION_TRANSFORM, zh="T_AB T_BC 的 X"),
-                Quantity("X_AB X_BC", MOTION_TRANSFORM),
+                Output("X of T_AB T_BC", MOTION_TRANSFORM, zh="T_AB T_BC 的 X"),
+                Output("X_AB X_BC", MOTION_TRANSFORM),
             ),
             cases=_cases,
             edges=_upright,

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import as_column, negated, times
 
 from ..layouts import WRENCH
@@ -56,7 +56,7 @@ def _cases(rng: Any) -> Any:
 
 LOADS = Part(
     solution=foot_loads,
-    returns=(Quantity("f_z (12 kg)", unit="N", zh="f_z（12 kg）"), Quantity("f_z (model)", unit="N", zh="f_z（模型）")),
+    returns=(Output("f_z (12 kg)", unit="N", zh="f_z（12 kg）"), Output("f_z (model)", unit="N", zh="f_z（模型）")),
     cases=lambda rng: [()],
     rtol=5e-4,
     slips={
@@ -78,7 +78,7 @@ LOADS = Part(
 
 OF_FOOT = Part(
     solution=foot_wrench,
-    returns=(Quantity("F", WRENCH),),
+    returns=(Output("F", WRENCH),),
     cases=_cases,
     edges=lambda rng: [(robot("go2"), robot("go2").neutral(), "RL_foot")],
     slips={

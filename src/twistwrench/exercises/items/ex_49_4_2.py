@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ...spatial import exp3
 from ..layouts import WRENCH
@@ -37,7 +37,7 @@ def _power(answer: Any, R: Any, p: Any, f_c: Any) -> Any:
 
 WRENCH_OF_CONTACT = Part(
     solution=contact_wrench,
-    returns=(Quantity("F by vectors", WRENCH, zh="用矢量求得的 F"), Quantity("F by X*", WRENCH, zh="用 X* 求得的 F")),
+    returns=(Output("F by vectors", WRENCH, zh="用矢量求得的 F"), Output("F by X*", WRENCH, zh="用 X* 求得的 F")),
     cases=_cases,
     slips={
         "coupling-dropped": faulty(contact_wrench, ("np.cross(p, f)", "np.zeros(3)")),

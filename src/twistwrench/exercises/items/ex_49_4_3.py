@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after, before, negated, times
 
 from ..layouts import WRENCH
@@ -108,7 +108,7 @@ def _pressures(rng: Any) -> Any:
 
 SUM = Part(
     solution=sole_wrench,
-    returns=(Quantity("F", WRENCH),),
+    returns=(Output("F", WRENCH),),
     cases=_sums,
     edges=_in_few_points,
     slips={
@@ -132,7 +132,7 @@ SUM = Part(
 
 PRESSURE = Part(
     solution=center_of_pressure,
-    returns=(Quantity("p", unit="m"),),
+    returns=(Output("p", unit="m"),),
     cases=_draw_wrenches,
     slips={
         "cop-sign": faulty(center_of_pressure, ("-tau_y", "tau_y")),
@@ -152,7 +152,7 @@ PRESSURE = Part(
 
 HOLDS = Part(
     solution=sole_holds,
-    returns=(Quantity("holds", zh="能否支撑"),),
+    returns=(Output("holds", zh="能否支撑"),),
     cases=_wrenches,
     given='p = mine("center_of_pressure")',
     slips={

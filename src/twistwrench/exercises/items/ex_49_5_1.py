@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import before
 
 from ..layouts import INERTIA
@@ -63,7 +63,7 @@ def _link_eigenvalues(wrong: Any, *, m: float = 2.0) -> Any:
 BY_HAND = Part(
     solution=link_inertia,
     given='build = mine("spatial_inertia")',
-    returns=(Quantity("I", INERTIA), Quantity("eigenvalues", zh="特征值")),
+    returns=(Output("I", INERTIA), Output("eigenvalues", zh="特征值")),
     cases=lambda rng: [()],
     rtol=2e-5,  # the least eigenvalue is 0.0099, the largest 2.02
     slips={
@@ -82,7 +82,7 @@ BY_HAND = Part(
 
 IN_GENERAL = Part(
     solution=spatial_inertia,
-    returns=(Quantity("I", INERTIA),),
+    returns=(Output("I", INERTIA),),
     cases=lambda rng: [random_body(rng) for _ in range(5)],
     edges=lambda rng: [(1.5, rng.standard_normal(3), np.zeros((3, 3))), (0.0, np.zeros(3), np.diag([1.0, 2, 3]))],
     slips={

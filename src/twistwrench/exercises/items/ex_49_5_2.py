@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ..layouts import INERTIA
 from ..public import mine
@@ -77,7 +77,7 @@ def _draw_inertias(rng: Any) -> Any:
 
 REORDERED = Part(
     solution=chapter_order,
-    returns=(Quantity("I", INERTIA),),
+    returns=(Output("I", INERTIA),),
     cases=_linear_first,
     edges=_draw_inertias,
     slips={
@@ -97,7 +97,7 @@ REORDERED = Part(
 OF_BASE = Part(
     solution=base_inertia,
     given='build = mine("spatial_inertia")',
-    returns=(Quantity("m", unit="kg"), Quantity("I", INERTIA)),
+    returns=(Output("m", unit="kg"), Output("I", INERTIA)),
     cases=lambda rng: [(robot("go2"),), (robot("humanoid"),)],
     edges=_light_base,
     slips={

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 
 from ...spatial import exp3
 from ..layouts import INERTIA
@@ -54,7 +54,7 @@ def _moved_points(rng: Any) -> Any:
 
 MOVED = Part(
     solution=moved_inertia,
-    returns=(Quantity("I_A", INERTIA),),
+    returns=(Output("I_A", INERTIA),),
     cases=_cases,
     edges=_moved_points,
     slips={
@@ -78,7 +78,7 @@ MOVED = Part(
 AT_COM = Part(
     solution=about_center_of_mass,
     given='build, moved = mine("spatial_inertia"), mine("moved_inertia")',
-    returns=(Quantity("I", INERTIA),),
+    returns=(Output("I", INERTIA),),
     cases=lambda rng: [random_body(rng) for _ in range(4)],
     edges=_points,
     slips={

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after, times
 
 from ..layouts import JOINT_SPACE, MASS_MATRIX
@@ -46,7 +46,7 @@ def _postures(rng: Any) -> Any:
 
 TWO_WAYS = Part(
     solution=torques_two_ways,
-    returns=(Quantity("τ by RNEA", JOINT_SPACE, zh="用 RNEA 求得的 τ"), Quantity("M a + h", JOINT_SPACE)),
+    returns=(Output("τ by RNEA", JOINT_SPACE, zh="用 RNEA 求得的 τ"), Output("M a + h", JOINT_SPACE)),
     cases=_motions,
     slips={
         "bias-for-zero": faulty(torques_two_ways, ("@ a + h", "@ a")),
@@ -71,7 +71,7 @@ TWO_WAYS = Part(
 
 COLUMNS = Part(
     solution=mass_matrix_by_rnea,
-    returns=(Quantity("M", MASS_MATRIX),),
+    returns=(Output("M", MASS_MATRIX),),
     cases=_postures,
     slips={
         "columns-added-up": after(mass_matrix_by_rnea, lambda M: M.cumsum(axis=1)),

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import negated
 
 from ...model import random_tree
@@ -58,7 +58,7 @@ def _centred(rng: Any) -> Any:
 
 WEIGHTS = Part(
     solution=weight_wrenches,
-    returns=(Quantity("W", WRENCH),),
+    returns=(Output("W", WRENCH),),
     cases=_postures,
     edges=_centred,
     slips={
@@ -95,8 +95,8 @@ TWO_WAYS = Part(
     solution=gravity_two_ways,
     given='W = mine("weight_wrenches")',
     returns=(
-        Quantity("τ with a₀ = −g", zh="取 a₀ = −g 时的 τ"),
-        Quantity("τ with weights", zh="把重力作为外力时的 τ"),
+        Output("τ with a₀ = −g", zh="取 a₀ = −g 时的 τ"),
+        Output("τ with weights", zh="把重力作为外力时的 τ"),
     ),  # the base may be fixed
     cases=_motions,
     slips={

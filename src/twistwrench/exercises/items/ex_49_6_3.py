@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import as_column, negated, times
 
 from ..layouts import WRENCH
@@ -47,7 +47,7 @@ def _hold_base(model: Any, q: Any) -> Any:
 BY_HAND = Part(
     solution=base_wrench_at_rest,
     ways=(_in_the_world,),
-    returns=(Quantity("F", WRENCH),),
+    returns=(Output("F", WRENCH),),
     cases=lambda rng: [*states(rng)],
     slips={
         "as-printed": faulty(base_wrench_at_rest, ("np.cross(lever, force), force", "np.zeros(3), -force")),
@@ -95,7 +95,7 @@ def _numbers(moment: float, force: float) -> Any:
 
 OF_GO2 = Part(
     solution=go2_base_wrench,
-    returns=(Quantity("F", WRENCH),),
+    returns=(Output("F", WRENCH),),
     cases=lambda rng: [()],
     rtol=1e-4,  # the moment is 1.297 beside a force of 157.8
     slips={

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after
 
 from ..layouts import JOINT_SPACE
@@ -52,8 +52,8 @@ def _fixed_to_base(model: Any, q: Any, v: Any) -> Any:
 FROM_REST = Part(
     solution=fall_from_rest,
     returns=(
-        Quantity("q̈ by ABA", JOINT_SPACE, zh="用 ABA 求得的 q̈"),
-        Quantity("q̈ as expected", JOINT_SPACE, zh="预期的 q̈"),
+        Output("q̈ by ABA", JOINT_SPACE, zh="用 ABA 求得的 q̈"),
+        Output("q̈ as expected", JOINT_SPACE, zh="预期的 q̈"),
     ),
     cases=lambda rng: [*states(rng, small=1)],
     slips={
@@ -80,8 +80,8 @@ FROM_REST = Part(
 IN_MOTION = Part(
     solution=fall_in_motion,
     returns=(
-        Quantity("a of the base", unit="m/s²", zh="基座的 a"),
-        Quantity("a of the centre of mass", unit="m/s²", zh="质心的 a"),
+        Output("a of the base", unit="m/s²", zh="基座的 a"),
+        Output("a of the centre of mass", unit="m/s²", zh="质心的 a"),
     ),
     cases=lambda rng: [*states(rng, vectors=1)],
     slips={

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.text import Text
 
 from ..layouts import JOINT_SPACE
@@ -129,8 +129,8 @@ def _plausible(answer: Any) -> Any:
 TWO_WAYS = Part(
     solution=forward_dynamics_two_ways,
     returns=(
-        Quantity("q̈ by ABA", JOINT_SPACE, zh="用 ABA 求得的 q̈"),
-        Quantity("q̈ by CRBA", JOINT_SPACE, zh="用 CRBA 求得的 q̈"),
+        Output("q̈ by ABA", JOINT_SPACE, zh="用 ABA 求得的 q̈"),
+        Output("q̈ by CRBA", JOINT_SPACE, zh="用 CRBA 求得的 q̈"),
     ),
     rtol=1e-7,
     cases=lambda rng: [*states(rng, vectors=2, small=1)],
@@ -161,7 +161,7 @@ TWO_WAYS = Part(
 
 RATIO = Part(
     solution=time_ratio,
-    returns=(Quantity("ratio", zh="比值"),),
+    returns=(Output("ratio", zh="比值"),),
     cases=_machines,
     edges=_at_both_ends,
     call=measure,
@@ -181,7 +181,7 @@ RATIO = Part(
 
 MEASURED = Part(
     solution=measured_ratio,
-    returns=(Quantity("ratio", zh="比值"),),
+    returns=(Output("ratio", zh="比值"),),
     cases=lambda rng: [()],
     canonical=_plausible,
     slips={

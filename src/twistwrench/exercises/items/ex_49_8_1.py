@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after, before
 
 from ..layouts import INERTIA
@@ -89,7 +89,7 @@ def _cases(rng: Any) -> Any:
 BLOCK = Part(
     solution=base_block,
     ways=(_by_transforms,),
-    returns=(Quantity("M_bb", INERTIA),),
+    returns=(Output("M_bb", INERTIA),),
     cases=_cases,
     edges=lambda rng: [(tw.chain(6, base="floating"), np.concatenate([np.zeros(6), [1.0], rng.standard_normal(5)]))],
     slips={
@@ -144,7 +144,7 @@ BLOCK = Part(
 
 WHOLE = Part(
     solution=whole_robot,
-    returns=(Quantity("m", unit="kg"), Quantity("c", unit="m"), Quantity("I_c", unit="kg m²")),
+    returns=(Output("m", unit="kg"), Output("c", unit="m"), Output("I_c", unit="kg m²")),
     cases=lambda rng: [(base_block(*case),) for case in _cases(rng)],
     edges=_blocks,
     slips={

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after
 
 from ..robots import robot
@@ -42,8 +42,8 @@ EXERCISE = Exercise(
         Part(
             solution=mass_matrix_sizes,
             returns=(
-                Quantity("rows (floating)", zh="行数（浮动基座）"),
-                Quantity("rows (fixed)", zh="行数（固定基座）"),
+                Output("rows (floating)", zh="行数（浮动基座）"),
+                Output("rows (fixed)", zh="行数（固定基座）"),
             ),
             cases=lambda rng: [()],
             slips={
@@ -61,7 +61,7 @@ EXERCISE = Exercise(
         ),
         Part(
             solution=held_mass_matrix,
-            returns=(Quantity("M (base held)", zh="M（基座固定）"),),
+            returns=(Output("M (base held)", zh="M（基座固定）"),),
             cases=_cases,
             slips={
                 "base-let-go": _let_go,

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after
 
 from ..layouts import JOINT_SPACE, WRENCH
@@ -72,7 +72,7 @@ def _moved(lever: Any) -> Any:
 
 BALANCE = Part(
     solution=out_of_balance,
-    returns=(Quantity("g − Sᵀτ − J_cᵀλ", JOINT_SPACE),),
+    returns=(Output("g − Sᵀτ − J_cᵀλ", JOINT_SPACE),),
     cases=_cases,
     slips={
         "torques-left-out": faulty(out_of_balance, (" - S.mT @ tau", "")),
@@ -102,7 +102,7 @@ BALANCE = Part(
 
 NET = Part(
     solution=net_wrench,
-    returns=(Quantity("F", WRENCH),),
+    returns=(Output("F", WRENCH),),
     cases=lambda rng: [(model, q, forces) for model, q, _, forces in _cases(rng)],
     slips={
         "moment-about-origin": faulty(net_wrench, ("feet - p_G", "feet")),

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import transposed
 
 __all__ = ["EXERCISE", "on_all_rows", "selection"]
@@ -27,7 +27,7 @@ EXERCISE = Exercise(
     parts=(
         Part(
             solution=selection,
-            returns=(Quantity("S"),),
+            returns=(Output("S"),),
             cases=lambda rng: [(18,), (6 + int(rng.integers(3, 30)),), (7,)],
             slips={
                 "selection-first": lambda nv: np.eye(nv - 6, nv),
@@ -48,7 +48,7 @@ EXERCISE = Exercise(
         ),
         Part(
             solution=on_all_rows,
-            returns=(Quantity("Sᵀτ"),),
+            returns=(Output("Sᵀτ"),),
             cases=lambda rng: [(rng.standard_normal(n),) for n in (12, 1, 23)],
             slips={
                 "selection-first": lambda tau: np.concatenate([tau, np.zeros(6)]),

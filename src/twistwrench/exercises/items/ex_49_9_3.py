@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import before
 
 from ..layouts import JOINT_SPACE, WRENCH
@@ -49,7 +49,7 @@ def _by_axis(forces: Any) -> Any:
 
 ROWS = Part(
     solution=base_rows,
-    returns=(Quantity("M_b q̈ + h_b − J_cbᵀλ", WRENCH),),
+    returns=(Output("M_b q̈ + h_b − J_cbᵀλ", WRENCH),),
     cases=_cases,
     slips={
         "joints-missing": faulty(base_rows, ("M[:6] @ qdd", "M[:6, :6] @ qdd[:6]")),
@@ -70,7 +70,7 @@ ROWS = Part(
 
 COMPLETE = Part(
     solution=complete_motion,
-    returns=(Quantity("q̈", JOINT_SPACE), Quantity("τ", unit="N m")),
+    returns=(Output("q̈", JOINT_SPACE), Output("τ", unit="N m")),
     cases=_joints_only,
     slips={
         "joints-missing": faulty(complete_motion, (" - M[:6, 6:] @ qdd_joints", "")),

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import before
 
 from ..layouts import JOINT_SPACE
@@ -56,7 +56,7 @@ BASE = np.arange(18) < 6
 
 FOOT = Part(
     solution=rows_of_foot,
-    returns=(Quantity("rows of J_c", zh="J_c 的各行"),),
+    returns=(Output("rows of J_c", zh="J_c 的各行"),),
     cases=_feet,
     slips={
         "angular-for-linear": lambda J, R, r: R @ J[:3],
@@ -72,7 +72,7 @@ FOOT = Part(
 
 EQUATION = Part(
     solution=accelerated,
-    returns=(Quantity("q̈", JOINT_SPACE),),
+    returns=(Output("q̈", JOINT_SPACE),),
     cases=_equations,
     slips={
         "contact-missing": faulty(accelerated, (" + J_c.mT @ forces", "")),

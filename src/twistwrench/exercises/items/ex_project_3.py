@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import after
 
 from ..layouts import CENTROIDAL_MAP, CONTACT_JACOBIAN, JOINT_SPACE, MASS_MATRIX, MOMENTUM, WRENCH
@@ -54,7 +54,7 @@ LAW = Part(
         acceleration = mine("accelerated")  # of M, h, S, J_c, tau, forces: the accelerations
         rate = mine("momentum_rate")  # rate(model, q, v, a) is ḣ_G
 """,
-    returns=(Quantity("ḣ_G", MOMENTUM), Quantity("wrench from outside", WRENCH, zh="外部的 wrench")),
+    returns=(Output("ḣ_G", MOMENTUM), Output("wrench from outside", WRENCH, zh="外部的 wrench")),
     cases=lambda rng: [(model, q, v, tau, forces.reshape(4, 3)) for model, q, v, tau, forces in _falls(rng)],
     slips={
         "contact-missing": faulty(rate_and_wrench, ("tau, forces.ravel()", "tau, 0 * forces.ravel()")),
@@ -96,10 +96,10 @@ def _states(rng: Any) -> Any:
 INTERFACE = Part(
     solution=get_dynamics,
     returns=(
-        Quantity("M", MASS_MATRIX),
-        Quantity("h", JOINT_SPACE),
-        Quantity("J_c", CONTACT_JACOBIAN),
-        Quantity("A_G", CENTROIDAL_MAP),
+        Output("M", MASS_MATRIX),
+        Output("h", JOINT_SPACE),
+        Output("J_c", CONTACT_JACOBIAN),
+        Output("A_G", CENTROIDAL_MAP),
     ),
     cases=_states,
     slips={

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Exercise, Part, Quantity
+from misstep.exercise import Exercise, Output, Part
 from misstep.faults import times
 from misstep.text import Text
 
@@ -77,7 +77,7 @@ def _axis_by_axis(p_G: Any, feet: Any, weight: Any) -> Any:
 
 LOADS = Part(
     solution=vertical_loads,
-    returns=(Quantity("f_z", unit="N"),),
+    returns=(Output("f_z", unit="N"),),
     cases=_standings,
     edges=_in_line,
     slips={
@@ -187,7 +187,7 @@ def _states(rng: Any) -> Any:
 
 CONSISTENCY = Part(
     solution=consistency_error,
-    returns=(Quantity("error", zh="误差"),),
+    returns=(Output("error", zh="误差"),),
     cases=_states,
     canonical=lambda answer, *_: float(answer) if np.isfinite(answer) else -1.0,
     rtol=1e-7,

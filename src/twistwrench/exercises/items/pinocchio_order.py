@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 from misstep.faults import before
 
 from ..layouts import PINOCCHIO_INERTIA, PINOCCHIO_TRANSFORM
@@ -37,7 +37,7 @@ def _inertias(rng: Any) -> Any:
 
 INERTIA_MATRIX = Part(
     solution=pinocchio_inertia,
-    returns=(Quantity("I", PINOCCHIO_INERTIA),),
+    returns=(Output("I", PINOCCHIO_INERTIA),),
     cases=_inertias,
     slips={
         "swapped-halves": swapped(pinocchio_inertia),
@@ -58,7 +58,7 @@ INERTIA_MATRIX = Part(
 
 ACTION = Part(
     solution=pinocchio_action,
-    returns=(Quantity("X", PINOCCHIO_TRANSFORM),),
+    returns=(Output("X", PINOCCHIO_TRANSFORM),),
     cases=lambda rng: [(tw.exp3(rng.standard_normal(3)), rng.standard_normal(3)) for _ in range(3)],
     slips={
         "swapped-halves": swapped(pinocchio_action),

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 
 from ...algorithms.aba import articulated_body
 from ..wrong import faulty
@@ -40,7 +40,7 @@ ABA = Part(
     solution=tree_aba,
     beside=(tree_of, columns, articulated_body),
     rtol=1e-8,
-    returns=(Quantity("q̈"),),
+    returns=(Output("q̈"),),
     cases=_loads,
     slips={
         "gravity-missing": _changed(("-tree.gravity", "0 * tree.gravity")),

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 from misstep.faults import after
 
 from ...algorithms.crba import composite_rigid_body
@@ -52,7 +52,7 @@ AS_IT_IS = ("symmetric(S", "(S")
 CRBA = Part(
     solution=tree_crba,
     beside=(tree_of, composite_rigid_body),
-    returns=(Quantity("M"),),
+    returns=(Output("M"),),
     cases=lambda rng: [tuple(lists) for _, *lists in trees(rng)],
     edges=lambda rng: [with_massless_link(rng)[1:]],
     slips={

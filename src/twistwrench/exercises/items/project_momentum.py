@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 
 from ..layouts import CENTROIDAL_MAP, MOMENTUM
 from ..robots import states
@@ -96,7 +96,7 @@ def _motions(rng: Any) -> Any:
 MAP = Part(
     solution=own_centroidal_map,
     ways=(_about_the_origin,),
-    returns=(Quantity("A_G", CENTROIDAL_MAP),),
+    returns=(Output("A_G", CENTROIDAL_MAP),),
     cases=lambda rng: [*states(rng)],
     slips={
         "momentum-at-origin": faulty(own_centroidal_map, ("tw.center_of_mass(model, q)", "np.zeros(3)")),
@@ -139,7 +139,7 @@ def _by_vectors(model: Any, q: Any, v: Any, a: Any) -> Any:
 RATE = Part(
     solution=momentum_rate,
     ways=(_by_vectors,),
-    returns=(Quantity("ḣ_G", MOMENTUM),),
+    returns=(Output("ḣ_G", MOMENTUM),),
     cases=_motions,
     slips={
         "gyroscopic-missing": faulty(momentum_rate, (" + tw.cross_force(V) @ I @ V", "")),

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 
 from ..layouts import FORCE_TRANSFORM, MOTION_TRANSFORM
 from ..wrong import faulty, swap, swapped
@@ -35,7 +35,7 @@ def _pose(rng: Any) -> Any:
 TRANSFORMS = Part(
     solution=transforms_of,
     rtol=1e-12,
-    returns=(Quantity("X", MOTION_TRANSFORM), Quantity("X*", FORCE_TRANSFORM)),
+    returns=(Output("X", MOTION_TRANSFORM), Output("X*", FORCE_TRANSFORM)),
     cases=lambda rng: [(_pose(rng),) for _ in range(4)],
     slips={
         "coupling-dropped": faulty(transforms_of, ("coupling = tw", "coupling = 0 * tw")),
@@ -60,7 +60,7 @@ TRANSFORMS = Part(
 CROSS = Part(
     solution=cross_operators,
     rtol=1e-12,
-    returns=(Quantity("V×", MOTION_TRANSFORM), Quantity("V×*", FORCE_TRANSFORM)),
+    returns=(Output("V×", MOTION_TRANSFORM), Output("V×*", FORCE_TRANSFORM)),
     cases=lambda rng: [(rng.standard_normal(6),) for _ in range(4)],
     slips={
         "motion-cross-for-force": lambda V: (cross_operators(V)[0],) * 2,

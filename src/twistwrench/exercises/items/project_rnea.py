@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 
 from ...algorithms.kinematics import motion
 from ...algorithms.rnea import newton_euler
@@ -64,7 +64,7 @@ _changed = partial(faulty, tree_rnea, of=newton_euler)
 RNEA = Part(
     solution=tree_rnea,
     beside=(tree_of, columns, newton_euler),
-    returns=(Quantity("τ"),),
+    returns=(Output("τ"),),
     cases=_motions,
     edges=_without_a_mass,
     slips={
@@ -105,7 +105,7 @@ RNEA = Part(
 ENERGY = Part(
     solution=tree_energy,
     beside=(tree_of, columns, motion),
-    returns=(Quantity("T", unit="J"),),
+    returns=(Output("T", unit="J"),),
     cases=lambda rng: [(*lists, pieces(model, rng)) for model, *lists in trees(rng)],
     edges=lambda rng: [(*lists, pieces(model, rng)) for model, *lists in [with_massless_link(rng)]],
     slips={

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 from misstep.text import Text
 
 from ..stopwatch import Machine, Task, draw_interruptions, measure, seconds
@@ -91,7 +91,7 @@ def _near(answer: Any, task: Any) -> Any:
 
 TIME = Part(
     solution=time_per_call,
-    returns=(Quantity("time", unit="s", zh="时间"),),
+    returns=(Output("time", unit="s", zh="时间"),),
     cases=_machines,
     edges=_unsteady,
     call=measure,

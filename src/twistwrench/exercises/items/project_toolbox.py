@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 import twistwrench as tw
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 
 from ..layouts import POSE
 from ..wrong import faulty
@@ -115,14 +115,14 @@ VECTOR = Part(
             return ...
 """,
     returns=(
-        Quantity("(F + G).kind"),
-        Quantity("(F − G).kind"),
-        Quantity("F + G"),
-        Quantity("V − W"),
-        Quantity("F.power(V)", unit="W"),
-        Quantity("V.power(F)", unit="W"),
-        Quantity("the error of V ± F", zh="V ± F 的异常"),
-        Quantity("the error of V.power(W)", zh="V.power(W) 的异常"),
+        Output("(F + G).kind"),
+        Output("(F − G).kind"),
+        Output("F + G"),
+        Output("V − W"),
+        Output("F.power(V)", unit="W"),
+        Output("V.power(F)", unit="W"),
+        Output("the error of V ± F", zh="V ± F 的异常"),
+        Output("the error of V.power(W)", zh="V.power(W) 的异常"),
     ),
     cases=lambda rng: [tuple(rng.standard_normal((4, 6))) for _ in range(3)],
     slips={
@@ -166,7 +166,7 @@ def _configuration(rng: Any) -> Any:
 
 POSE_OF_BASE = Part(
     solution=base_pose,
-    returns=(Quantity("T", POSE),),
+    returns=(Output("T", POSE),),
     cases=lambda rng: [(_configuration(rng),) for _ in range(4)],
     edges=lambda rng: [(np.concatenate([q[:3], [0, 0, 0, 1 + 2.0**-52], q[7:]]),) for q in [_configuration(rng)]],
     slips={
@@ -190,7 +190,7 @@ def _first_axis(rpy: Any) -> Any:
 
 POSE_OF_URDF = Part(
     solution=urdf_pose,
-    returns=(Quantity("T", POSE),),
+    returns=(Output("T", POSE),),
     cases=lambda rng: [tuple(rng.uniform(-1.2, 1.2, (2, 3))) for _ in range(4)],
     slips={
         "angles-as-vector": lambda xyz, rpy: np.block([[tw.exp3(rpy), xyz[:, None]], [np.eye(4)[3:]]]),

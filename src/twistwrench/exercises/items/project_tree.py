@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from misstep.exercise import Part, Quantity
+from misstep.exercise import Output, Part
 from misstep.faults import after
 
 from ...algorithms.kinematics import placements
@@ -103,7 +103,7 @@ PLACEMENTS = Part(
     solution=body_placements,
     beside=(placements,),
     rtol=1e-12,
-    returns=(Quantity("oMi"),),
+    returns=(Output("oMi"),),
     cases=lambda rng: [(parent, T) for parent, T, _ in _robots(rng)],
     slips={
         "composition-order": _changed(("T[parent[i]] @ T[i]", "T[i] @ T[parent[i]]")),
@@ -121,7 +121,7 @@ TWISTS = Part(
     solution=body_twists,
     rtol=1e-12,
     given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
-    returns=(Quantity("V"),),
+    returns=(Output("V"),),
     cases=_robots,
     slips={
         "inverse-transform": faulty(body_twists, ("np.linalg.inv(T[i])", "T[i]")),
@@ -153,7 +153,7 @@ WRENCHES = Part(
     solution=carried_wrenches,
     rtol=1e-12,
     given='transforms = mine("transforms_of")  # transforms(T) gives X and X*',
-    returns=(Quantity("F"),),
+    returns=(Output("F"),),
     cases=_with_wrenches,
     slips={
         "inverse-transform": faulty(carried_wrenches, ("transforms(T[i])", "transforms(np.linalg.inv(T[i]))")),

@@ -1,4 +1,4 @@
-"""A function as a program: its source with its helpers, changed in one place, and the values of its expressions."""
+"""A function as a listing: its source with its helpers, changed in one place, and the values of its expressions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-__all__ = ["Change", "Place", "Program", "equal", "locate", "source_with_helpers", "text_of"]
+__all__ = ["Change", "Listing", "Place", "equal", "locate", "source_with_helpers", "text_of"]
 
 Function = Callable[..., Any]
 
@@ -104,7 +104,7 @@ def source_with_helpers(function: Function) -> str | None:
     return "".join(line if k in shown else "\n" for k, line in enumerate(lines, 1))
 
 
-class Program:
+class Listing:
     """The syntax tree of a function or class, of which single nodes can be replaced.
 
     Its source, with helpers, is read from its file unless given. What is run is its caller where there is one; `given`
@@ -144,7 +144,7 @@ class Program:
         return FunctionType(self.caller.__code__, names, closure=self.caller.__closure__)
 
     def mutant(self, changes: tuple[Change, ...]) -> Function | None:
-        """Return the function with other nodes in some places; None where that is no program."""
+        """Return the function with other nodes in some places; None where that does not compile."""
         for place, new in changes:
             if not hasattr(new, "lineno"):
                 locate(new, place.node)
@@ -157,7 +157,7 @@ class Program:
             for place, _ in changes:
                 place.put(place.node)
 
-    def trace(self, run: Callable[[Function], Any]) -> Program:
+    def trace(self, run: Callable[[Function], Any]) -> Listing:
         """Run it, and record the value of each expression, in the order in which they are computed."""
         nodes = [place.node for place in self.places if _has_value(place)]
         numbers = {id(node): k for k, node in enumerate(nodes)}
