@@ -10,7 +10,7 @@ __all__ = ["DRAWN_BY", "SLOW_CASES", "sampled"]
 DRAWN_BY = "TWISTWRENCH_DRAW"
 """The variable that draws what is not tried in each run; `all` leaves nothing out. tests/conftest.py draws."""
 
-SLOW_CASES = 3
+SLOW_CASES = 1
 """Of each test in the slow run, at most, where nothing else is asked for; those are drawn."""
 
 

@@ -10,6 +10,7 @@ from twistwrench.cli import main
 ROBOTS = ("planar_arm", "double_pendulum", "cart_pole")
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("robot", ROBOTS)
 @pytest.mark.parametrize("within", ["0.001 N m", "1e-10 N m", "6 digits"])
 def test_the_promise_holds_in_states_that_it_never_saw(robot, within):

@@ -110,9 +110,9 @@ def counted(kinds, seeds):
 
 
 def test_of_a_few_trees_of_each_kind_the_cure_brings_the_digits_back():
-    _, above, proposed, lost = counted(KINDS, range(2))
+    _, above, proposed, lost = counted(KINDS, range(1))
     assert above == []
-    assert len(proposed) >= 4
+    assert len(proposed) >= 2
     assert lost == []
 
 

@@ -43,6 +43,7 @@ def arm(joints, rng, gravity=(0, 0, -9.81)):
 # ---------------------------------------------------------------- published
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("robot", "published"),
     [
@@ -117,6 +118,7 @@ def test_three_numbers_pass_a_hinge_and_six_a_slide():
     assert [moved_through(joint) for joint in (tw.Revolute([1, 2, 2]), tw.Prismatic("x"), tw.Spherical())] == [3, 6, 1]
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("seed", range(6))
 def test_on_a_floating_base_each_joint_hides_what_passes_it(seed):
     model = tw.random_tree(9, rng=seed, base="floating")

@@ -5,13 +5,16 @@ the language switch reached with Tab and its focus seen. And of the search: the 
 What axe-core can judge of WCAG 2.1 A and AA, and its best practice, is asked of the English pages, wide and light, and
 of the Chinese ones, narrow and dark; in the long page of errata not of the code, whose colours are those of the other
 pages. Where Python is in the page, an exercise is answered there, and the verdict has to name the slip.
+
+Each run opens the first page of each language and some others, drawn anew; TWISTWRENCH_DRAW=all takes all of them.
 """
 
 from __future__ import annotations
 
 import os
+import random
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
@@ -29,6 +32,10 @@ SOUGHT = {
 }
 """What is looked up, and the page that has to be found first."""
 AXE = (("en", "light"), ("zh", "dark"))
+DRAWN_BY = "TWISTWRENCH_DRAW"
+"""The variable that draws what a run looks at, as in tests/sampling.py; `all` leaves nothing out."""
+PAGES_DRAWN = 3
+"""Of each language, beside the first page."""
 MOST_TABS = 40
 SLIP = {"en": "Kind of slip: sign.", "zh": "错误类型：符号。"}
 MOST_TO_START = 180_000
@@ -77,15 +84,23 @@ def missing() -> str | None:
     return None if chromium() else "no chromium on the PATH, and $CHROMIUM is not set: no page is opened"
 
 
+def drawn(items: Iterable[Any], count: int, name: str) -> list[Any]:
+    """Return so many items, others for another name and in another run; all where TWISTWRENCH_DRAW=all."""
+    seed, items = os.environ[DRAWN_BY], list(items)
+    return items if seed == "all" else random.Random(seed + name).sample(items, min(count, len(items)))
+
+
 def check(html: Path) -> list[str]:
     """Return what is wrong with the pages; says so and returns nothing where there is no Chromium."""
     if reason := missing():
         print(reason)
         return []
+    seed = os.environ.setdefault(DRAWN_BY, str(random.randrange(1000)))
+    print(f"pages to open are drawn: {DRAWN_BY}={seed} (all: {DRAWN_BY}=all)", flush=True)
     with ThreadPoolExecutor(len(LANGUAGES)) as pool:
         wrong = [line for lines in pool.map(partial(_language, html), LANGUAGES) for line in lines]
     if (html / "runtime").exists():
-        wrong += [line for language in LANGUAGES for line in runs(html, language)]
+        wrong += [line for language in drawn(LANGUAGES, 1, "runs") for line in runs(html, language)]
     else:
         print("Python in the page was not gathered (docs/runtime.py): no page is run")
     return wrong
@@ -95,19 +110,21 @@ def _language(html: Path, language: str) -> list[str]:
     """Return what is wrong with the pages of one language, with a browser of its own."""
     from playwright.sync_api import sync_playwright
 
-    wrong = []
+    wrong, names = [], [PAGES[0], *drawn(PAGES[1:], PAGES_DRAWN, language)]
     with sync_playwright() as play:
         browser = play.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
         for size, scheme in ((WIDE, "light"), (NARROW, "dark")):
             context = browser.new_context(viewport=size, color_scheme=scheme, offline=True)
-            for name in PAGES:
+            for name in names:
                 page = context.new_page()
                 found = [*looks(page, html / language / f"{name}.html"), *reach(page)]
                 if (language, scheme) in AXE:
                     found += accessible(page, name)
                 wrong += [f"{language}/{name} at {size['width']} px, {scheme}: {what}" for what in found]
                 page.close()
-            wrong += [f"{language}/search at {size['width']} px: {what}" for what in search(context, html, language)]
+            sought = dict(drawn(SOUGHT[language].items(), 1, f"{language} {scheme}"))
+            results = search(context, html / language, sought)
+            wrong += [f"{language}/search at {size['width']} px: {what}" for what in results]
             context.close()
         browser.close()
     return wrong
@@ -133,13 +150,13 @@ def looks(page: Any, file: Path) -> Iterator[str]:
     yield from dict.fromkeys(f"on the console: {line}" for line in said)
 
 
-def search(context: Any, html: Path, language: str) -> Iterator[str]:
+def search(context: Any, html: Path, sought: dict[str, str]) -> Iterator[str]:
     """Look things up, and yield what is wrong with what was found."""
     from playwright.sync_api import TimeoutError as NothingFound
 
-    for query, wanted in SOUGHT[language].items():
+    for query, wanted in sought.items():
         page = context.new_page()
-        page.goto(f"{(html / language / 'search.html').resolve().as_uri()}?q={quote(query)}")
+        page.goto(f"{(html / 'search.html').resolve().as_uri()}?q={quote(query)}")
         found = page.locator("#search-results li a").first
         try:
             found.wait_for(timeout=10_000)

@@ -53,7 +53,7 @@ def check_against_pinocchio(recipe: Recipe) -> None:
 @example(LONG_CHAIN)
 @example(BIG_TREE)
 @example(UNPUSHED)
-@examples(20)
+@examples(12)
 def test_every_quantity_is_pinocchios(recipe):
     check_against_pinocchio(recipe)
 
@@ -66,7 +66,7 @@ def test_every_quantity_is_pinocchios_at_length(recipe):
 
 
 @given(recipes(40))
-@examples(40)
+@examples(10)
 def test_a_random_tree_is_what_was_asked_for(recipe):
     model = recipe.model
     assert model.nbodies == recipe.n + 1

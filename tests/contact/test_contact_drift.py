@@ -66,7 +66,8 @@ def pinocchios(pin, model, q, v, tau, contacts, spring, axes):
     )
 
 
-@pytest.mark.parametrize(("drift", "speed"), [(0, 0), (1e-4, 0), (1e-3, 1e-3), (1e-2, 0.1)])
+@pytest.mark.one_case
+@pytest.mark.parametrize(("drift", "speed"), [(1e-2, 0.1), (0, 0), (1e-4, 0), (1e-3, 1e-3)])
 @pytest.mark.parametrize(("model", "contacts", "q"), STANDS, ids=["box", "go2", "humanoid"])
 def test_corrected_accelerations_are_pinocchios(model, contacts, q, drift, speed):
     pin = pytest.importorskip("pinocchio", reason="Pinocchio is not installed: its correctors are not asked")
@@ -115,7 +116,7 @@ def test_a_humanoid_sinks_on_its_eight_corners_as_on_its_soles(dt):
 def test_what_contradicts_itself_without_drift_is_still_refused():
     q, v, rest = straight(plumb=True), np.zeros(18), np.zeros(18)
     v[GO2.v_slice[GO2.joint_id("FL_thigh_joint")]], v[GO2.v_slice[GO2.joint_id("FL_calf_joint")]] = -1, 2
-    for more in (0.0, 1e-3, 0.1):  # with drift on top, too
+    for more in (0.0, 0.1):  # with drift on top, too
         with pytest.raises(tw.SingularError, match=r"the contacts contradict each other: .* 'FL_foot' .* is left"):
             tw.contact_forward_dynamics(GO2, q, v + np.r_[0, more, np.zeros(16)], rest, FEET)
     spring = tw.Baumgarte(20.0, tw.contact_placements(GO2, GO2.integrate(q, np.full(18, 1e-3)), FEET))

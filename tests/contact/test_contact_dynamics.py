@@ -81,6 +81,7 @@ def stacked(forces) -> np.ndarray:
 LONG = [name for name in CASES if name.endswith(("slip", "knees", "soles, moving", "kinds, moving"))]
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] * (n in LONG)) for n in CASES])
 def test_accelerations_and_forces_are_those_of_the_50_digit_kkt_system(name):
     model, q, v, tau, contacts, rank = state(name)

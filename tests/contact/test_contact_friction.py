@@ -48,6 +48,7 @@ def feet(mu):
 # ---------------------------------------------------------------- least squares
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("model", "q", "contacts"),
     [

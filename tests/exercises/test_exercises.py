@@ -406,7 +406,7 @@ def test_an_exercise_is_found_by_its_number_or_a_function():
         hint("project.9")
 
 
-def test_hints_come_one_at_a_time(tmp_path):
+def test_hints_come_one_at_a_time(tmp_path, no_other_process):
     start(tmp_path, language="en")
     first, second = hint("49.3.1", tmp_path), hint("49.3.1", tmp_path)
     assert "hint 1 of 2" in first
@@ -422,7 +422,7 @@ def test_a_hint_that_nobody_remembers_says_so(tmp_path):
     assert hint("49.3.1", tmp_path, language="zh").endswith("--all 显示全部提示。")
 
 
-def test_a_model_answer_waits_for_the_attempt(tmp_path):
+def test_a_model_answer_waits_for_the_attempt(tmp_path, no_other_process):
     start(tmp_path, language="en")
     model = COURSE.exercise("49.3.2").answer.en.split()[:4]
     assert " ".join(model) not in solution("49.3.2", tmp_path)
@@ -718,7 +718,7 @@ def test_commands_refuse_what_they_cannot_do(tmp_path, capsys):
     assert "纯平移" in capsys.readouterr().out
 
 
-def test_a_hint_is_printed(tmp_path, capsys):
+def test_a_hint_is_printed(tmp_path, capsys, no_other_process):
     start(tmp_path, language="en")
     assert main(["exercises", "hint", "49.3.1", "--dir", str(tmp_path)]) == 0
     assert capsys.readouterr().out.strip()

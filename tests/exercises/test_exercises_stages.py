@@ -30,7 +30,7 @@ def write(folder, body, name="act", section="49.0"):
 
 
 @pytest.fixture
-def folder(tmp_path):
+def folder(tmp_path, no_other_process):
     start(tmp_path, language="en")
     write(tmp_path, ACT)
     return tmp_path
@@ -105,7 +105,7 @@ def test_pytest_counts_the_level(folder, capfd):
     assert Workbook(COURSE, folder).hints(COURSE.exercise("49.0.2")) == {"act": 1}
 
 
-def test_an_instructor_can_leave_the_cure_out(tmp_path, monkeypatch):
+def test_an_instructor_can_leave_the_cure_out(tmp_path, monkeypatch, no_other_process):
     assert main(["exercises", "start", str(tmp_path), "--language", "en", "--no-cure"]) == 0
     write(tmp_path, ACT)
     assert json.loads((tmp_path / ".twistwrench.json").read_text(encoding="utf-8"))["cure"] is False

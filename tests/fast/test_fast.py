@@ -86,9 +86,7 @@ def assert_as_good(model, s, contacts, *, few=FEW):
 # ---------------------------------------------------------------- the truth
 
 
-@pytest.mark.parametrize(
-    "recipe", sampled([Recipe(5, seed=1, base="floating"), Recipe(1, base="floating")], 1), ids=str
-)
+@pytest.mark.parametrize("recipe", sampled([Recipe(n, seed=1, base="floating") for n in (3, 5, 1)], 1), ids=str)
 def test_errors_are_within_twice_those_of_the_textbook(recipe):
     assert_as_good(recipe.model, recipe.state(), [recipe.frame(), recipe.model.frame_names[-1]])
 

@@ -399,6 +399,7 @@ def test_what_is_too_long_is_decided_by_degrees_of_freedom_and_by_the_entries_of
     assert programs.too_long(bundle(chains, links), [want]) == reason
 
 
+@pytest.mark.one_case
 @pytest.mark.skipif(not llvm.available(), reason="llvmlite is not installed")
 @pytest.mark.parametrize("name", ["rnea", "nonlinear_effects", "centroidal_map"])
 def test_a_long_chain_has_machine_code_and_the_accuracy_of_the_textbook(name):

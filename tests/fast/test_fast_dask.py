@@ -8,9 +8,6 @@ import pytest
 
 import twistwrench as tw
 
-pytest.importorskip("dask.array", reason="Dask is not installed: more than one machine is not tried")
-distributed = pytest.importorskip("distributed", reason="Dask's scheduler is not installed")
-
 PROGRAM = re.search(
     r"```python\n(.*?)```", (Path(__file__).parents[2] / "docs" / "dask.md").read_text(encoding="utf-8"), re.DOTALL
 )[1]
@@ -19,6 +16,8 @@ PROGRAM = re.search(
 @pytest.fixture(scope="module")
 def client():
     """Two processes with one thread each, and no window on them."""
+    pytest.importorskip("dask.array", reason="Dask is not installed: more than one machine is not tried")
+    distributed = pytest.importorskip("distributed", reason="Dask's scheduler is not installed")
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,

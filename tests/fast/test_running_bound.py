@@ -69,7 +69,7 @@ def test_the_bounds_of_float32_hold(robot, name):
 
 
 @given(recipe=recipes(4), name=st.sampled_from(ASKED))
-@examples(3)
+@examples(2)
 def test_trees_of_every_joint_are_within_their_bounds(recipe, name):
     model = recipe.model
     state = random_state(model, rng=recipe.seed)._asdict()

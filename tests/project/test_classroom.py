@@ -28,7 +28,7 @@ TRANSPOSED = {"49.0.1": "def skew(w):\n    return tw.skew(w).T\n"}
 
 
 @pytest.fixture(autouse=True)
-def _no_traces(tmp_path, monkeypatch):
+def _no_traces(tmp_path, monkeypatch, no_other_process):
     monkeypatch.setattr(classroom, "ANSWERS", tmp_path / "answers")
     monkeypatch.setattr(classroom, "SPACES", {})
     classroom.OUTPUTS.clear()

@@ -172,28 +172,34 @@ def test_only_what_has_no_sections_in_it_is_folded():
     assert folds.folded(f'<section id="a"><h2>A</h2>{inner}</section>', 2).count("<details") == 0
 
 
-@pytest.fixture
-def opened(tmp_path):
-    """Yield a function that opens HTML, with the site's script, in a browser."""
+@pytest.fixture(scope="module")
+def chromium():
+    """Yield a browser for all tests of this file: a start takes more than most of them."""
     if reason := browser.missing():
         pytest.skip(reason)
     from playwright.sync_api import sync_playwright
 
-    script, errors = (ROOT / "docs/website/static/site.js").read_text(encoding="utf-8"), []
     with sync_playwright() as play:
         chromium = play.chromium.launch(executable_path=browser.chromium(), args=["--no-sandbox"])
-        page = chromium.new_context(offline=True).new_page()
-        page.on("pageerror", lambda error: errors.append(str(error)))
-
-        def show(html, place=""):
-            (tmp_path / "a.html").write_text(
-                f"<!doctype html><meta charset=utf-8><script>{script}</script>{html}", "utf-8"
-            )
-            page.goto((tmp_path / "a.html").as_uri() + place)
-            return page
-
-        yield show
+        yield chromium
         chromium.close()
+
+
+@pytest.fixture
+def opened(tmp_path, chromium):
+    """Yield a function that opens HTML, with the site's script, in a browser."""
+    script, errors = (ROOT / "docs/website/static/site.js").read_text(encoding="utf-8"), []
+    context = chromium.new_context(offline=True)
+    page = context.new_page()
+    page.on("pageerror", lambda error: errors.append(str(error)))
+
+    def show(html, place=""):
+        (tmp_path / "a.html").write_text(f"<!doctype html><meta charset=utf-8><script>{script}</script>{html}", "utf-8")
+        page.goto((tmp_path / "a.html").as_uri() + place)
+        return page
+
+    yield show
+    context.close()
     assert not errors
 
 
@@ -215,6 +221,7 @@ def test_the_box_finds_entries_and_a_link_opens_its_own(opened):
     assert page.evaluate(shown) == [[True, False]] * 2
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("wanted", [5, 12, 25, 40])
 @pytest.mark.parametrize("quantity", ["ID", "FD"])
 def test_the_slider_names_the_quickest_way_with_so_many_digits(opened, quantity, wanted):

@@ -79,7 +79,7 @@ def test_torques_and_forces_missed_are_those_of_the_inverse_dynamics_of_both_rob
     mine = rows(found)["this scene"]
     np.testing.assert_array_equal(mine.kept, small.kept_v)
     weight = HUMANOID.mass * 9.81
-    for k in range(0, len(WALK), 4):
+    for k in range(0, len(WALK), 8):
         on = [tw.PointContact(foot, 1.0) for foot, stands in zip(WALK.feet, WALK.contacts[k], strict=True) if stands]
         whole = tw.contact_inverse_dynamics(HUMANOID, WALK.q[k], WALK.v[k], WALK.a[k], on)
         held = tw.contact_inverse_dynamics(small.model, q[k], v[k], a[k], on)
@@ -280,6 +280,7 @@ def test_a_robot_loaded_from_a_file_is_judged_as_the_one_of_the_catalogue():
     assert "  lipm         does not apply: height: 'go2' has no feet" in str(without)
 
 
+@pytest.mark.slow
 def test_a_motion_without_feet_stands_on_the_scenes_contacts():
     walk = motions.walk(GO2, samples=3)
     on, off = (replace(walk, feet=(), contacts=np.zeros((3, 0), bool)), replace(walk, contacts=np.ones((3, 4), bool)))

@@ -21,6 +21,7 @@ SOLES = [tw.SurfaceContact(f"{side}_sole", (0.1, 0.05), mu=0.7) for side in ("le
 FEET = [tw.PointContact(f"{leg}_foot", mu=0.7) for leg in ("FL", "FR", "RL", "RR")]
 PAGES = [page("scenes", language) for language in ("", ".zh-CN")]
 ARMS = ["*_shoulder_*", "*_elbow"]
+GO2, HUMANOID = shared("go2"), shared("humanoid")
 EVERYTHING = {"M", "h", "J_c", "A_G"}
 
 
@@ -33,7 +34,7 @@ def close(ours, right, bound=2e-14):
 
 
 def test_the_scene_holds_the_smallest_model_and_keeps_all_frames():
-    scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS)
+    scene = tw.Scene(HUMANOID, contacts=SOLES, hold=ARMS)
     full = shared("humanoid")
     assert (scene.full_model.nv, scene.model.nv, scene.model.nbodies) == (27, 19, 15)
     assert scene.held == tuple(n for n in full.joint_names if "shoulder" in n or "elbow" in n)
@@ -65,7 +66,7 @@ def test_links_that_carry_nothing_are_dropped_unless_something_touches_them():
 
 @pytest.mark.parametrize("base", ["fixed", "floating", "planar"])
 def test_states_go_both_ways_on_every_base(base):
-    scene = tw.Scene("go2", base=base, hold=["F*"])
+    scene = tw.Scene(GO2, base=base, hold=["F*"])
     q, v = scene.model.random_configuration(rng=1), np.arange(scene.model.nv) + 1.0
     Q, V = scene.expand(q, v)
     assert (Q.shape, V.shape) == ((19,), (18,))
@@ -107,7 +108,7 @@ def test_a_base_whose_x_axis_points_up_has_no_heading_and_still_goes_both_ways()
 
 
 def test_a_base_held_where_it_stands_is_fixed_to_the_world():
-    scene = tw.Scene("go2", base="fixed")
+    scene = tw.Scene(GO2, base="fixed")
     model = scene.model
     assert (model.base, model.nv, scene.held) == ("fixed", 12, ())
     full = scene.full_model
@@ -118,16 +119,16 @@ def test_a_base_held_where_it_stands_is_fixed_to_the_world():
 
 
 def test_a_pattern_that_fits_all_joints_leaves_the_base_what_it_is():
-    scene = tw.Scene("go2", hold=["*_joint"])
+    scene = tw.Scene(GO2, hold=["*_joint"])
     assert (scene.model.nbodies, scene.model.nv, len(scene.held)) == (2, 6, 12)
     close(scene.model.inertia[1].matrix(), tw.crba(scene.full_model, scene.q)[:6, :6])
 
 
 def test_gravity_is_the_scenes():
-    moon = tw.Scene("humanoid", gravity=[0, 0, -1.62], hold=ARMS)
+    moon = tw.Scene(HUMANOID, gravity=[0, 0, -1.62], hold=ARMS)
     q = moon.model.standing()
     h = moon.dynamics(q, np.zeros(19), want=["h"]).h
-    close(h * 9.81 / 1.62, tw.Scene("humanoid", hold=ARMS).dynamics(q, np.zeros(19), want=["h"]).h)
+    close(h * 9.81 / 1.62, tw.Scene(HUMANOID, hold=ARMS).dynamics(q, np.zeros(19), want=["h"]).h)
     assert moon.full_model.gravity.tolist() == moon.model.gravity.tolist() == [0, 0, -1.62]
 
 
@@ -139,7 +140,7 @@ def test_gravity_is_the_scenes():
 @pytest.mark.parametrize("dtype", sampled([np.float64, np.float32, np.longdouble, complex], 2))
 def test_dynamics_are_the_textbooks(batch, dtype):
     mixed = [SOLES[0], tw.PointContact("right_sole", 0.5), tw.PointContact("left_hand", 0.2)]
-    scene = tw.Scene("humanoid", contacts=mixed, hold=["waist_yaw", "right_elbow"])
+    scene = tw.Scene(HUMANOID, contacts=mixed, hold=["waist_yaw", "right_elbow"])
     q, v, *_ = random_state(scene.model, rng=4, batch=batch, dtype=dtype)
     d = scene.dynamics(q, v)
     right = tw.dynamics(scene.model, q, v)
@@ -153,7 +154,7 @@ def test_dynamics_are_the_textbooks(batch, dtype):
 def test_wrenches_from_outside_are_in_h():
     """The load on the hand and the push on the torso, by the virtual power of their world-aligned wrenches."""
     wrenches = {"left_hand": [0, 0, 0, 0, 0, -20.0], "torso": [3.0, 0, -2.0, 30.0, 0, 0]}
-    scene = tw.Scene("humanoid", contacts=SOLES, hold=["*shoulder*"], wrenches=wrenches)
+    scene = tw.Scene(HUMANOID, contacts=SOLES, hold=["*shoulder*"], wrenches=wrenches)
     model = scene.model
     q, v, a, *_ = random_state(model, rng=6)
     d = scene.dynamics(q, v)
@@ -162,7 +163,7 @@ def test_wrenches_from_outside_are_in_h():
     close(d.J_c, tw.constraint_jacobian(model, q, SOLES))
     close(d.M @ a + d.h, tw.rnea(model, q, v, a, scene.f_ext(q)))
     Q, V = scene.expand(q, v)
-    whole = tw.Scene("humanoid", wrenches=wrenches)
+    whole = tw.Scene(HUMANOID, wrenches=wrenches)
     kept = [*range(6), *np.flatnonzero(np.isin(whole.model.joint_names[2:], model.joint_names[2:])) + 6]
     close(d.h, whole.dynamics(Q, V, want={"h"}).h[kept])
     batch = np.stack([q, q])
@@ -171,7 +172,7 @@ def test_wrenches_from_outside_are_in_h():
 
 
 def test_a_scene_may_have_wrenches_and_no_contacts():
-    scene = tw.Scene("go2", wrenches={"base": [1.0, 2.0, 3.0, 0, 0, 5.0]})
+    scene = tw.Scene(GO2, wrenches={"base": [1.0, 2.0, 3.0, 0, 0, 5.0]})
     q, v, a, *_ = random_state(scene.model, rng=8)
     d = scene.dynamics(q, v)
     assert d.J_c.shape == (0, 18)
@@ -192,7 +193,7 @@ def operations(scene, want):
 
 @pytest.mark.slow
 def test_only_what_is_wanted_is_computed_and_what_is_shared_once():
-    scene = tw.Scene("go2", contacts=FEET, hold=["RR_*"])
+    scene = tw.Scene(GO2, contacts=FEET, hold=["RR_*"])
     alone = {name: operations(scene, {name}) for name in EVERYTHING}
     watched = operations(scene, set())
     assert alone["J_c"] < alone["M"]
@@ -204,10 +205,10 @@ def test_only_what_is_wanted_is_computed_and_what_is_shared_once():
 
 
 def test_held_joints_are_no_work_and_the_rows_of_a_sole_that_no_one_asks_for_are_none():
-    scene = tw.Scene("humanoid", contacts=SOLES, hold=ARMS)
-    whole = tw.Scene("humanoid", contacts=SOLES)
+    scene = tw.Scene(HUMANOID, contacts=SOLES, hold=ARMS)
+    whole = tw.Scene(HUMANOID, contacts=SOLES)
     assert operations(scene, {"M", "J_c"}) < 0.75 * operations(whole, {"M", "J_c"})
-    points = tw.Scene("humanoid", contacts=[tw.PointContact(sole.frame, 0.7) for sole in SOLES], hold=ARMS)
+    points = tw.Scene(HUMANOID, contacts=[tw.PointContact(sole.frame, 0.7) for sole in SOLES], hold=ARMS)
     assert operations(points, {"J_c"}) <= operations(scene, {"J_c"})
     jacobian = compile(scene.model, "contact_jacobian", contacts=[sole.frame for sole in SOLES])
     assert operations(points, {"J_c"}) == pytest.approx(jacobian.operations.total(), abs=4 * scene.model.nv)
@@ -224,20 +225,20 @@ def test_a_robot_stands_within_its_polygon_and_its_friction_cones():
         normal = (np.sin(0.6), 0, np.cos(0.6))
         return [tw.PointContact(foot.frame, mu, normal=normal) for foot in FEET]
 
-    assert tw.Scene("go2", contacts=FEET).can_stand()
-    assert str(tw.Scene("go2", contacts=FEET).can_stand()) == "it stands"
-    assert tw.Scene("go2", contacts=slope(0.75)).can_stand(tilt)  # tan 0.6 = 0.68, the pyramid keeps 0.98 of μ
-    slips = tw.Scene("go2", contacts=slope(0.65)).can_stand(tilt)
+    assert tw.Scene(GO2, contacts=FEET).can_stand()
+    assert str(tw.Scene(GO2, contacts=FEET).can_stand()) == "it stands"
+    assert tw.Scene(GO2, contacts=slope(0.75)).can_stand(tilt)  # tan 0.6 = 0.68, the pyramid keeps 0.98 of μ
+    slips = tw.Scene(GO2, contacts=slope(0.65)).can_stand(tilt)
     assert not slips
     assert str(slips).startswith("cannot stand: it slips: it would need 1.07 times the friction")
-    tips = tw.Scene("humanoid", contacts=SOLES[:1], hold=ARMS).can_stand()
+    tips = tw.Scene(HUMANOID, contacts=SOLES[:1], hold=ARMS).can_stand()
     assert "the centre of mass is 0.02 m outside the support polygon" in str(tips)
-    pair = tw.Scene("go2", contacts=[FEET[0], FEET[3]]).can_stand()
+    pair = tw.Scene(GO2, contacts=[FEET[0], FEET[3]]).can_stand()
     assert "no forces at ['FL_foot', 'RR_foot'] do this" in str(pair)
 
 
 def test_a_pose_beyond_the_limits_is_none():
-    scene = tw.Scene("go2", contacts=FEET)
+    scene = tw.Scene(GO2, contacts=FEET)
     q = scene.model.standing()
     q[9] = 0.5
     assert "joint 'FL_calf_joint' is at [0.5], outside its limits [-2.723] to [-0.838]" in str(scene.can_stand(q))
@@ -295,19 +296,19 @@ def test_weak_motors_are_spared_where_other_forces_do():
 
 def test_what_pushes_the_robot_counts():
     feet = {"contacts": FEET}
-    assert tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, -400.0]}).can_stand()
-    heavy = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, -4000.0]}).can_stand()
+    assert tw.Scene(GO2, **feet, wrenches={"base": [0, 0, 0, 0, 0, -400.0]}).can_stand()
+    heavy = tw.Scene(GO2, **feet, wrenches={"base": [0, 0, 0, 0, 0, -4000.0]}).can_stand()
     assert "no forces at the contacts spare the motors" in str(heavy)
-    pushed = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 300.0, 0, 0]}).can_stand()
+    pushed = tw.Scene(GO2, **feet, wrenches={"base": [0, 0, 0, 300.0, 0, 0]}).can_stand()
     assert "no forces within the limits do this; they would have to break lift-off at" in str(pushed)
-    lifted = tw.Scene("go2", **feet, wrenches={"base": [0, 0, 0, 0, 0, 160.0]})  # more than its weight of 157.8 N
+    lifted = tw.Scene(GO2, **feet, wrenches={"base": [0, 0, 0, 0, 0, 160.0]})  # more than its weight of 157.8 N
     assert not lifted.can_stand()
 
 
 @pytest.mark.parametrize("given", [{"base": "planar", "contacts": FEET}, {}, {"contacts": FEET, "gravity": [0, 0, 0]}])
 def test_to_stand_takes_gravity_and_something_to_stand_on(given):
     with pytest.raises(ValueError, match="standing needs gravity, and a fixed base or a floating one with contacts"):
-        tw.Scene("go2", **given).can_stand()
+        tw.Scene(GO2, **given).can_stand()
 
 
 def test_an_arm_holds_what_its_motors_hold():
@@ -341,11 +342,11 @@ def crate():
 def test_a_payload_is_a_body_and_not_a_force():
     """It falls as the robot does; a force of its weight would make the robot fall faster."""
     rest = np.zeros(18)
-    falls = tw.Scene("go2", payload={"base": 2.0})
+    falls = tw.Scene(GO2, payload={"base": 2.0})
     model = falls.model
     assert falls.full_model.mass == pytest.approx(shared("go2").mass + 2.0, rel=1e-15)
     assert tw.aba(model, model.standing(), rest, rest)[3:6] == pytest.approx([0, 0, -9.81], abs=1e-12)
-    pushed = tw.Scene("go2", wrenches={"base": [0, 0, 0, 0, 0, -2 * 9.81]})
+    pushed = tw.Scene(GO2, wrenches={"base": [0, 0, 0, 0, 0, -2 * 9.81]})
     a = tw.aba(pushed.model, model.standing(), rest, rest, pushed.f_ext(model.standing()))
     assert tw.centroidal_momentum_rate(model, model.standing(), rest, a)[5] < -9.81 * falls.full_model.mass
     assert repr(falls) == "<Scene 'go2': floating base, 1 payload, nv = 18 of 18>"
@@ -387,18 +388,18 @@ def test_an_object_that_is_carried_may_touch():
     close(tw.frame_placement(scene.model, q, "crate_corner").matrix(), corner.matrix())
     assert scene.dynamics(q, np.zeros(scene.model.nv), want={"J_c"}).J_c.shape == (15, whole.nv)
     for base in ("fixed", "planar"):
-        low = tw.Scene("humanoid", base=base, payload={"left_hand": 1.5})
-        assert low.model.mass == pytest.approx(tw.Scene("humanoid", base=base).model.mass + 1.5)
+        low = tw.Scene(HUMANOID, base=base, payload={"left_hand": 1.5})
+        assert low.model.mass == pytest.approx(tw.Scene(HUMANOID, base=base).model.mass + 1.5)
 
 
 def test_what_is_carried_counts_where_the_robot_stands():
     """2 kg at arm's length move the centre of mass, by their moment over the weight of both."""
-    bare, heavy = (tw.Scene("humanoid", contacts=SOLES, payload=p).model for p in ({}, {"left_hand": 2.0}))
+    bare, heavy = (tw.Scene(HUMANOID, contacts=SOLES, payload=p).model for p in ({}, {"left_hand": 2.0}))
     q = bare.standing()
     hand, G = tw.frame_placement(bare, q, "left_hand").translation, tw.center_of_mass(bare, q)
     close(tw.center_of_mass(heavy, q), (bare.mass * G + 2.0 * hand) / (bare.mass + 2.0))
-    assert tw.Scene("go2", contacts=FEET, payload={"base": 10.0}).can_stand()
-    too_much = tw.Scene("go2", contacts=FEET, payload={"base": 300.0}).can_stand()
+    assert tw.Scene(GO2, contacts=FEET, payload={"base": 10.0}).can_stand()
+    too_much = tw.Scene(GO2, contacts=FEET, payload={"base": 300.0}).can_stand()
     assert "no forces at the contacts spare the motors" in str(too_much)
 
 
@@ -431,16 +432,16 @@ def test_the_phases_of_a_walk_are_scenes_whose_contacts_stand_still(robot):
 @pytest.mark.slow
 def test_a_hand_on_a_rail_stays_and_a_robot_in_the_air_touches_nothing():
     rail = [*SOLES, tw.PointContact("left_hand", 0.5)]
-    scene = tw.Scene("humanoid", contacts=rail)
+    scene = tw.Scene(HUMANOID, contacts=rail)
     jump = motions.jump(shared("humanoid"), samples=20)
     names = [[c.frame for c in phase.scene.contacts] for phase in scene.phases(jump)]
     assert names == [["left_sole", "right_sole", "left_hand"], ["left_hand"], ["left_sole", "right_sole", "left_hand"]]
     assert scene.contacts == tuple(rail)
-    both = tw.Scene("humanoid", contacts=[*SOLES, tw.LoopClosure("left_hand", "right_hand")])
+    both = tw.Scene(HUMANOID, contacts=[*SOLES, tw.LoopClosure("left_hand", "right_hand")])
     assert [len(phase.scene.contacts) for phase in both.phases(jump)] == [3, 1, 3]  # the hands hold each other
     walk = motions.walk(shared("humanoid"), samples=3)
     assert both.cheapest(1e-9, replace(walk, feet=(), contacts=np.zeros((3, 0), bool))).best.worst() < 1e-9
-    assert tw.Scene("humanoid").phases(jump)[0].states == slice(0, 20)
+    assert tw.Scene(HUMANOID).phases(jump)[0].states == slice(0, 20)
     with pytest.raises(tw.ShapeError):
         scene.phases(motions.walk(shared("go2"), samples=2))
 
@@ -450,7 +451,7 @@ def test_in_an_elevator_the_feet_bear_the_robot_and_its_acceleration():
     up, belt = (
         [replace(foot, **given) for foot in FEET] for given in ({"acceleration": (0, 0, 2)}, {"velocity": (1, 0, 0)})
     )
-    lift, model = tw.Scene("go2", contacts=up), shared("go2")
+    lift, model = tw.Scene(GO2, contacts=up), shared("go2")
     rest, rise, along = np.zeros(18), np.r_[0, 0, 0, 0, 0, 2.0, np.zeros(12)], np.r_[0, 0, 0, 1.0, np.zeros(14)]
     tau = tw.contact_inverse_dynamics(model, model.standing(), rest, rise, FEET).tau
     found = tw.contact_forward_dynamics(lift.model, model.standing(), rest, tau, lift.contacts)
@@ -516,23 +517,23 @@ def test_in_an_elevator_the_feet_bear_the_robot_and_its_acceleration():
 )
 def test_a_scene_that_cannot_be_is_refused(given, error, said):
     with pytest.raises(error, match=said):
-        tw.Scene("go2", **given)
+        tw.Scene(GO2, **given)
 
 
 def test_friction_below_zero_is_refused_where_the_contact_is_made():
     with pytest.raises(ValueError, match=r"mu: expected at least 0, got -0\.1"):
-        tw.Scene("go2", contacts=[tw.PointContact("FL_foot", -0.1)])
+        tw.Scene(GO2, contacts=[tw.PointContact("FL_foot", -0.1)])
 
 
 def test_one_place_of_a_body_under_two_names_is_one_place():
     frames = shared("humanoid").frames
     assert frames["left_sole"].body == frames["left_sole_joint"].body
     with pytest.raises(tw.ModelError, match="the same contact twice"):
-        tw.Scene("humanoid", contacts=[tw.PointContact("left_sole", 0.7), tw.PointContact("left_sole_joint", 0.7)])
+        tw.Scene(HUMANOID, contacts=[tw.PointContact("left_sole", 0.7), tw.PointContact("left_sole_joint", 0.7)])
     used = [tw.PointContact(name, 0.7) for name in ("left_sole", "left_sole_joint")]  # which remember their rows
     assert [one.directions.shape for one in used] == [(3, 6), (3, 6)]
     with pytest.raises(tw.ModelError, match="the same contact twice"):
-        tw.Scene("humanoid", contacts=used)
+        tw.Scene(HUMANOID, contacts=used)
 
 
 def test_a_robot_that_is_none_or_has_no_such_base_is_refused():
@@ -545,7 +546,7 @@ def test_a_robot_that_is_none_or_has_no_such_base_is_refused():
 
 
 def test_a_quantity_or_a_state_that_is_none_is_refused():
-    scene = tw.Scene("go2", contacts=FEET, wrenches={"base": [0, 0, 0, 1, 0, 0]})
+    scene = tw.Scene(GO2, contacts=FEET, wrenches={"base": [0, 0, 0, 1, 0, 0]})
     q, v = scene.model.standing(), np.zeros(18)
     with pytest.raises(tw.NameNotFound, match="unknown quantity 'C'"):
         scene.dynamics(q, v, want={"M", "C"})
@@ -625,4 +626,4 @@ def test_the_tables_of_the_page_are_what_its_command_finds(capsys):
 
 def test_wrenches_without_frames_are_refused():
     with pytest.raises(TypeError, match="wrenches: expected a mapping of frames to wrenches, got list"):
-        tw.Scene("go2", wrenches=[[0, 0, 0, 1, 0, 0]])
+        tw.Scene(GO2, wrenches=[[0, 0, 0, 1, 0, 0]])

@@ -28,6 +28,7 @@ def test_a_pendulum_multiplies_errors_as_it_hangs_or_stands(angle, grows):
     assert found.growth == pytest.approx(abs(grows(rate * 2.0)), rel=1e-4)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("name", MOTIONS)
 def test_dop853_ends_as_far_away_as_is_said(name):
     integrate = pytest.importorskip("scipy.integrate", reason="SciPy is not installed")
@@ -65,13 +66,13 @@ def test_a_motion_of_no_time_has_no_error(duration):
 
 
 def test_the_least_work_keeps_its_promise_on_starts_that_it_never_saw():
-    """A double pendulum for half a second within a hundredth of a millimetre, by DOP853 at 40 new starts."""
+    """A double pendulum for half a second within a hundredth of a millimetre, by DOP853 at 20 new starts."""
     integrate = pytest.importorskip("scipy.integrate", reason="SciPy is not installed")
     model, rng = tw.load("double_pendulum"), np.random.default_rng(99)
     found = cheapest_steps(model, 0.01, 0.5)
     best = min((way for way in found.ways if way.error <= 0.01), key=lambda way: way.work)
     within = []
-    for _ in range(40):
+    for _ in range(20):
         q, v = model.random_configuration(rng=rng), rng.standard_normal(2)
         motion = tw.simulate(model, q, v, dt=best.dt, duration=0.5, method=best.method)
 
@@ -84,7 +85,7 @@ def test_the_least_work_keeps_its_promise_on_starts_that_it_never_saw():
 
 
 def test_where_the_motion_outruns_doubles_it_is_said_for_how_long_they_do():
-    """A pendulum balanced for 20 s multiplies by 10^27, and an eighth of this by 10^3."""
-    found = cheapest_steps(tw.load("pendulum"), 0.1, 20.0, ([np.pi], [0.0]))
+    """A pendulum balanced for 12 s multiplies by 10^16, and a quarter of this by 10^4."""
+    found = cheapest_steps(tw.load("pendulum"), 0.1, 12.0, ([np.pi], [0.0]))
     assert all(way.error > 0.1 for way in found.ways)
     assert "the motion multiplies errors; for" in found.instead

@@ -99,6 +99,7 @@ def test_what_bounces_or_moves_with_its_ground_is_left_to_the_general_step(monke
     assert not counted
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("made", [go2, humanoid])
 def test_heights_of_many_states_are_those_of_each(made):
     model, q, contacts = made()

@@ -157,30 +157,38 @@ def test_the_force_of_a_joint_is_an_arrow_along_its_axis():
     assert not any(step["along"] for step in found if step["name"] != "tau")
 
 
-@pytest.fixture
-def opened(tmp_path):
-    """Open HTML as a page without a network; yield a function that does, and what went wrong there."""
+@pytest.fixture(scope="module")
+def browser():
+    """Yield a Chromium for all tests of this file: a start takes more than most of them."""
     sync_api = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: no page is opened")
     chromium = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
     if chromium is None:
         pytest.skip("no chromium on the PATH, and $CHROMIUM is not set: no page is opened")
-    errors = []
     with sync_api.sync_playwright() as play:
         browser = play.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
-
-        def show(html, width=1280, motion="no-preference"):
-            file = tmp_path / "page.html"
-            file.write_text(f"<!doctype html><meta charset='utf-8'>{html}", encoding="utf-8")
-            size = {"width": width, "height": 800}
-            page = browser.new_context(offline=True, viewport=size, reduced_motion=motion).new_page()
-            page.on("pageerror", lambda error: errors.append(str(error)))
-            page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
-            page.clock.install()
-            page.goto(file.as_uri())
-            return page
-
-        yield show
+        yield browser
         browser.close()
+
+
+@pytest.fixture
+def opened(tmp_path, browser):
+    """Yield a function that opens HTML as a page without a network; nothing may go wrong there."""
+    errors = []
+
+    def show(html, width=1280, motion="no-preference"):
+        file = tmp_path / "page.html"
+        file.write_text(f"<!doctype html><meta charset='utf-8'>{html}", encoding="utf-8")
+        size = {"width": width, "height": 800}
+        page = browser.new_context(offline=True, viewport=size, reduced_motion=motion).new_page()
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.on("console", lambda line: errors.append(line.text) if line.type == "error" else None)
+        page.clock.install()
+        page.goto(file.as_uri())
+        return page
+
+    yield show
+    for context in browser.contexts:
+        context.close()
     assert not errors
 
 
@@ -237,6 +245,7 @@ def test_where_no_motion_is_wanted_it_waits(opened):
     assert page.locator(".count").inner_text() == "1 of 11"
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("width", [390, 1280])
 @pytest.mark.parametrize("algorithm", ["rnea", "aba"])
 def test_nothing_moves_from_one_step_to_the_next(opened, algorithm, width):
