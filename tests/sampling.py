@@ -1,17 +1,25 @@
 """Of a long list of cases, those that every run has, and how many of the others a run of the slow tests draws."""
 
-from collections.abc import Iterable
+import os
+import random
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import pytest
 
-__all__ = ["DRAWN_BY", "SLOW_CASES", "sampled"]
+__all__ = ["DRAWN_BY", "SLOW_CASES", "drawn", "sampled"]
 
 DRAWN_BY = "TWISTWRENCH_DRAW"
 """The variable that draws what is not tried in each run; `all` leaves nothing out. tests/conftest.py draws."""
 
 SLOW_CASES = 1
 """Of each test in the slow run, at most, where nothing else is asked for; those are drawn."""
+
+
+def drawn(values: Sequence[Any], count: int) -> list[Any]:
+    """Return so many of the values, others in each run; all of them where `DRAWN_BY` says so."""
+    seed = os.environ[DRAWN_BY]
+    return [*values] if seed == "all" else random.Random(seed).sample(values, count)
 
 
 def sampled(values: Iterable[Any], keep: int, *, several: bool = False, draw: int = SLOW_CASES) -> list[Any]:

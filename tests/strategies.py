@@ -14,12 +14,16 @@ from hypothesis import strategies as st
 import twistwrench as tw
 from twistwrench.model import KINDS
 
+from .sampling import DRAWN_BY
+
 BATCHES = [(), (1,), (3, 1, 2), (0,)]
 REFERENCES = ["local", "world", "local_world_aligned"]
 
 
-def examples(count: int) -> settings:
-    """Try that many examples; TWISTWRENCH_EXAMPLES=20 in the environment makes it twenty times as many."""
+def examples(count: int, every: int | None = None) -> settings:
+    """Try so many examples, or `every` one where TWISTWRENCH_DRAW=all; by TWISTWRENCH_EXAMPLES=20 20 times as many."""
+    if every and os.environ.get(DRAWN_BY) == "all":
+        count = every
     return settings(max_examples=count * int(os.environ.get("TWISTWRENCH_EXAMPLES", "1")))
 
 

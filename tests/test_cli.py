@@ -92,7 +92,9 @@ def test_the_version_and_python_dash_m(capsys):
     assert said == f"twistwrench {tw.__version__}\n"
     ran = subprocess.run([sys.executable, "-m", "twistwrench", "--version"], capture_output=True, text=True)
     assert (ran.returncode, ran.stdout, ran.stderr) == (0, said, "")
-    assert main([]) == 2
+    with pytest.raises(SystemExit) as stop:
+        main([])
+    assert stop.value.code == 2
 
 
 def test_json_goes_to_stdout_alone(capsys):

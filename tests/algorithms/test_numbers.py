@@ -48,7 +48,7 @@ def test_every_number_type_is_kept_and_is_right_to_its_own_precision(dtype, reci
     ],
 )
 @given(recipes(14))
-@examples(12)
+@examples(3, every=12)
 def test_every_number_type_is_right_on_larger_trees(dtype, recipe):
     check_against_the_truth(recipe, dtype)
 

@@ -18,7 +18,7 @@ UNPUSHED = Recipe(1, seed=5602, base="fixed", kinds=("prismatic",))
 
 
 @given(recipes(8))
-@examples(4)
+@examples(3)
 def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
     check_against_the_truth(recipe, np.float64)
 
@@ -27,7 +27,7 @@ def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
 @given(recipes(40))
 @example(LONG_CHAIN)
 @example(BIG_TREE)
-@examples(6)
+@examples(1, every=6)
 def test_every_quantity_is_right_to_the_last_digits_of_50_for_up_to_40_bodies(recipe):
     check_against_the_truth(recipe, np.float64)
 
@@ -60,7 +60,7 @@ def test_every_quantity_is_pinocchios(recipe):
 
 @pytest.mark.slow
 @given(recipes(40))
-@examples(60)
+@examples(12, every=60)
 def test_every_quantity_is_pinocchios_at_length(recipe):
     check_against_pinocchio(recipe)
 

@@ -98,6 +98,7 @@ def test_residual_is_the_acceleration_that_the_motion_asks_of_the_contacts():
     assert error(need.residual, tw.contact_jacobian(GO2, GO2.standing(), GO2.feet) @ a) < 1e-12
 
 
+@pytest.mark.slow
 def test_a_wrench_from_outside_is_borne():
     f_ext = np.zeros((GO2.nbodies, 6))
     f_ext[1, 5] = -50.0  # a load on the base, which is level
@@ -219,6 +220,7 @@ def test_the_pressure_on_a_sole_stays_within_it():
         assert np.hypot(*f[:2]) <= 0.6 * f[2] * (1 + 1e-9)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("mu", np.linspace(0.45, 0.65, 9))
 def test_it_says_cannot_exactly_where_a_linear_programme_finds_no_forces(mu):
     task = ContactProblem.of(GO2, *poised(FORWARDS), feet(mu), None)

@@ -225,7 +225,7 @@ def test_of_many_forces_no_program_chooses_one_in_more_digits(want, number):
 
 
 def test_rows_that_depend_on_each_other_in_every_state_have_no_bound_and_no_more_digits():
-    leg = tw.lock_joints(GO2, ["FR_*", "RL_*", "RR_*"]).model
+    leg = tw.lock_joints(GO2, ["FR_*", "RL_*", "RR_*"], GO2.standing()).model
     scene = tw.Scene(leg, contacts=[tw.PointContact("FL_foot", 0.6), tw.PointContact("FL_calf", 0.6)])  # of one body
     state = leg.standing(), np.zeros(9), np.ones(9)
     assert np.isfinite(tw.compile(scene, "lambda")(*state)).all()

@@ -120,6 +120,7 @@ def test_a_bead_on_a_rail_and_on_a_plane_accelerates_with_g_sin(slope):
         assert (held.rank, held.redundant) == (len(normals), 0)
 
 
+@pytest.mark.slow
 def test_a_bead_flies_outwards_on_a_rod_that_turns():
     """r̈ = r ω²: r = r₀ cosh ω t + ṙ₀/ω sinh ω t. The rod pushes sideways only, with 2 m ω ṙ.
 

@@ -47,6 +47,7 @@ def test_rows_and_bias_of_a_wheel_on_a_robot_are_differences():
     assert np.abs((ahead - back) / (2 * h) - tw.constraint_bias(model, q, v, [wheel])).max() < 1e-7  # h², rounding / h
 
 
+@pytest.mark.slow
 def test_a_coin_that_leans_rolls_round_by_runge_kutta_for_ever():
     s = tw.simulate(COIN, Q, V, dt=0.005, duration=1.0, contacts=rim())
     assert np.ptp(s.q[:, 2]) < 1e-7

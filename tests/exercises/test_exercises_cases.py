@@ -168,6 +168,7 @@ def test_thresholds_orders_and_limits_are_met(name, function):
     assert judge(*COURSE.find_part(name), function, search=False).state == "wrong"
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("way", [np.median, min, lambda times: np.mean(sorted(times)[25:75])])
 def test_a_right_way_to_measure_is_not_refused(way):
     def per_call(task, calls, clock):

@@ -121,6 +121,7 @@ def by_inverse(model, q, v, tau):
 TWO_WAYS = [("torques_two_ways", by_rnea, by_matrix), ("forward_dynamics_two_ways", by_aba, by_inverse)]
 
 
+@pytest.mark.slow
 @pytest.mark.one_case
 @pytest.mark.parametrize(("name", "first", "second"), TWO_WAYS)
 def test_two_ways_are_not_one(name, first, second):

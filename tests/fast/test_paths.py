@@ -61,6 +61,7 @@ LEADING = {
 }
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("leading", LEADING)
 @pytest.mark.parametrize("name", ARGUMENTS)
 def test_the_same_bits_wherever_the_states_lie(model, right, name, leading):

@@ -37,6 +37,7 @@ def loop(monkeypatch):
     return begin
 
 
+@pytest.mark.one_case
 @pytest.mark.skipif(not available(), reason="llvmlite is not installed")
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_what_is_prepared_makes_nothing_in_the_loop(loop, dtype):

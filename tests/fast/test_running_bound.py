@@ -50,6 +50,7 @@ def check(model, name, args, dtype=np.float64, backend=BACKEND):
     return (bound / np.where(off > 4 * unknown, off, np.nan)).ravel()
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("robot", "name"), [("cart_pole", "rnea"), *(("go2", name) for name in ASKED), ("planar_arm", "aba")]
 )
@@ -91,6 +92,7 @@ def test_fifty_digits_agree():
         assert float(max(off)) > 0
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("backend", BACKENDS)
 @pytest.mark.parametrize(
     "sizes",
@@ -104,6 +106,7 @@ def test_extremes_are_within_their_bounds(sizes, backend):
         check(weight, "aba", states(weight, "aba", 30, v=sizes["v"], tau=sizes["a"]), backend=backend)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_states_of_the_textbook_have_the_closer_bound(backend):
     """Of an angle above 2¹⁷ rad the textbook takes the sine, and the bound is that of ``bound=True``."""
@@ -199,6 +202,7 @@ def test_it_pickles():
     np.testing.assert_array_equal(copy(q), program(q))
 
 
+@pytest.mark.slow
 @llvm
 def test_a_bound_takes_few_operations():
     """Counted, since times depend on the machine; the arguments of a rotation are shared."""

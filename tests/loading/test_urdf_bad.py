@@ -410,8 +410,8 @@ def test_an_entity_bomb_is_refused_at_once(save, encoding):
 
 
 def test_many_links_without_a_joint_make_a_short_message(save):
-    links = "".join(f'<link name="l{i}"/>' for i in range(10_000))
-    assert len(refuse(save(f'<robot name="r">{links}</robot>'), "10000 links", "...")) < 500
+    links = "".join(f'<link name="l{i}"/>' for i in range(2_000))
+    assert len(refuse(save(f'<robot name="r">{links}</robot>'), "2000 links", "...")) < 500
 
 
 def test_a_long_cycle_is_found(save):

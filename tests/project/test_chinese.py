@@ -81,6 +81,7 @@ ELSEWHERE = ("docs/glossary", "docs/mirror")
 """The glossary and the chapter's own headings have the chapter's words."""
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("word", ONE_TERM)
 def test_one_thing_has_one_term(word):
     wrong = "构型，转动关节，棱柱关节，复合惯量，脚的 Jacobian 矩阵，带不动，父物体，铰链，世界系，雅可比"

@@ -77,6 +77,7 @@ def test_a_figure_becomes_a_picture():
     assert classroom.run("1;", "page", "cell 2") == []
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize(
     ("language", "slip"), [("en", "the skew-symmetric matrix is transposed"), ("zh", "反对称矩阵")]
 )

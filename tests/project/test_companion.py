@@ -77,6 +77,7 @@ def test_the_cache_of_the_second_stage_runs_and_is_the_same_in_both_languages() 
     run(page("companion"), blocks[0])
 
 
+@pytest.mark.slow
 def test_the_cost_grows_as_the_table_has_it() -> None:
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: the complexity is measured with it")
     growth = runpy.run_path(str(DOCS / "chapter" / "complexity.py"), run_name="complexity")["growth"]

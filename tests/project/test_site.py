@@ -48,6 +48,7 @@ def test_the_algorithms_of_the_chapter_have_their_page():
     assert {path.stem for path in beside.FOLDER.glob("*.toml")} == set(beside.ORDER)
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("name", beside.names())
 def test_both_languages_tell_the_same_steps(name):
     said = beside.read(name)

@@ -23,6 +23,7 @@ def swing(**options):
     return tw.simulate(FOUR_BAR, q, v, contacts=PIN, duration=0.2, **options)
 
 
+@pytest.mark.slow
 def test_a_four_bar_by_time_stepping_comes_to_that_of_runge_kutta_at_order_1_and_never_opens():
     """Against contact_forward_dynamics by rk4, which is held against Lagrange's equations elsewhere."""
     exact, errors, forces = swing(dt=0.005), [], []

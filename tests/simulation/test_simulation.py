@@ -156,6 +156,7 @@ def test_the_momentum_of_a_robot_that_floats_freely_is_kept_to_rounding(seed):
     assert changed["midpoint"] > 1e-6
 
 
+@pytest.mark.slow
 def test_with_gravity_the_momentum_about_the_vertical_and_the_horizontal_one_are_kept():
     model = Recipe(4, seed=1, base="floating").model
     h = tw.simulate(model, *tumble(model), dt=0.02, steps=15, method="variational").momentum_about_origin
@@ -212,6 +213,7 @@ def test_the_variational_method_goes_back_the_way_it_came():
     assert np.abs(back.v[-1] + there.v[0]).max() < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.one_case
 @pytest.mark.parametrize("method", sampled(METHODS, 2))
 def test_where_a_robot_starts_makes_no_difference_without_gravity(method):

@@ -38,6 +38,7 @@ def test_a_free_body_keeps_its_speed_and_goes_straight_on(spin):
     assert world(s) == pytest.approx([3.5, 0, 0], abs=1e-11)
 
 
+@pytest.mark.slow
 def test_a_puck_and_a_body_that_floats_in_a_tree_go_straight_on():
     puck = tw.Builder("puck", gravity=[0, 0, 0])
     disc = tw.SpatialInertia(1.0, [0, 0, 0], 0.01 * np.eye(3))
@@ -96,6 +97,7 @@ def test_a_ball_rolls_down_30_degrees_with_5_7_of_g_sin():
         assert np.diff(s.energy).max() < 1e-12
 
 
+@pytest.mark.slow
 def test_a_box_that_is_thrown_with_spin_gains_no_energy():
     for dt in (4e-3, 2e-3):
         q, v = [0, 0, 0.3, 0, 0, 0, 1], [3.0, 8.0, 5.0, 1.0, 0, 2.0]

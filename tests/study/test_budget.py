@@ -98,6 +98,7 @@ def test_g_changes_the_weight_and_what_it_presses():
     assert np.abs(once).max() > 1e-2
 
 
+@pytest.mark.slow
 def test_differences_grow_with_the_square_of_the_step():
     trot = tw.motions.trot(GO2, samples=401)
     h, true = trot.t[1] - trot.t[0], needs(GO2, trot).tau

@@ -45,6 +45,7 @@ def curve(line):
 # ---------------------------------------------------------------- what is seen
 
 
+@pytest.mark.one_case
 @pytest.mark.parametrize("seen", [subject("go2"), subject(tw.Scene("humanoid", contacts=SOLES))], ids=["feet", "soles"])
 def test_the_forces_at_rest_carry_the_weight_and_turn_nothing(seen):
     """At the centre of pressure a sole's force stands for its wrench, but for the moment about the normal."""
@@ -60,6 +61,7 @@ def test_two_points_cannot_hold_a_humanoid_and_no_force_is_shown(space):
     assert not space.texts
 
 
+@pytest.mark.slow
 def test_a_sole_that_bears_nothing_has_its_force_in_its_middle():
     seen = subject(tw.Scene("humanoid", contacts=SOLES, gravity=[0, 0, 0]))
     middles = [tw.frame_placement(seen.model, seen.q, sole.frame).translation for sole in SOLES]
