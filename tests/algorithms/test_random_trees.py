@@ -53,7 +53,7 @@ def check_against_pinocchio(recipe: Recipe) -> None:
 @example(LONG_CHAIN)
 @example(BIG_TREE)
 @example(UNPUSHED)
-@examples(12)
+@examples(8)
 def test_every_quantity_is_pinocchios(recipe):
     check_against_pinocchio(recipe)
 

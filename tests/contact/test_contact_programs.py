@@ -284,7 +284,7 @@ def test_derivatives_of_an_impact_and_of_a_scene_with_wrenches_are_differences()
     scene = tw.Scene(LEG, contacts=points([tip]), wrenches={tip: [0, 0, 0, 5.0, -3.0, 2.0]})
     free = tw.Scene("double_pendulum", wrenches={tw.load("double_pendulum").joint_names[-1]: [1.0, 2, 3, 40, 50, 60]})
     rng = np.random.default_rng(5)
-    for where, symbol in ((scene, "qdd"), (scene, "lambda"), (scene, "v_plus"), (free, "qdd")):
+    for where, symbol in ((scene, "lambda"), (scene, "v_plus"), (free, "qdd")):
         model = where.model
         q, v, tau = model.random_configuration(rng=4), *rng.standard_normal((2, model.nv))
         args = (q, v) if symbol == "v_plus" else (q, v, tau)

@@ -27,10 +27,10 @@ BACKENDS = [
     "numpy",
 ]
 MODELS = {
+    "floating": tw.random_tree(4, rng=2, base="floating"),
     "go2": tw.load("go2"),
     **{kind: tw.random_tree(3, rng=7, kinds=(kind,)) for kind in KINDS},
     "fixed": tw.random_tree(5, rng=1),
-    "floating": tw.random_tree(4, rng=2, base="floating"),
 }
 every_model = pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
 some_models = pytest.mark.parametrize("model", sampled(MODELS.values(), 2), ids=MODELS)

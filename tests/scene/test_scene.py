@@ -204,6 +204,7 @@ def test_only_what_is_wanted_is_computed_and_what_is_shared_once():
         assert count - watched > 100
 
 
+@pytest.mark.slow
 def test_held_joints_are_no_work_and_the_rows_of_a_sole_that_no_one_asks_for_are_none():
     scene = tw.Scene(HUMANOID, contacts=SOLES, hold=ARMS)
     whole = tw.Scene(HUMANOID, contacts=SOLES)
@@ -270,6 +271,7 @@ def test_on_three_smooth_feet_the_torques_are_what_they_are_and_a_motor_is_stron
     assert f"that of {knee!r} would have to hold {need:.3g}" in str(weak)
 
 
+@pytest.mark.slow
 def test_weak_motors_are_spared_where_other_forces_do():
     """The smallest limit of all four knees with which it stands, by a linear programme and a second solver."""
     optimize = pytest.importorskip("scipy.optimize", reason="scipy is not installed: there is no second solver")
@@ -375,6 +377,7 @@ def test_a_payload_moves_as_a_body_that_is_welded_on(frame):
     close(tw.rnea(mine, q, v, a), tw.bridge.from_pinocchio_tangent(go2, tau), 1e-12)
 
 
+@pytest.mark.slow
 def test_an_object_that_is_carried_may_touch():
     """The humanoid holds a crate in its hand, whose corner it sets on something; what is held is one body more."""
     scene = tw.Scene(

@@ -69,6 +69,7 @@ def test_a_step_that_goes_straight_shifts_then_turns_and_the_velocity_turns_back
 # ---------------------------------------------------------------- rolling and spinning
 
 
+@pytest.mark.slow
 @pytest.mark.one_case
 @pytest.mark.parametrize(
     ("r", "mu", "speed"), [(0.1, 0.0, 0.0), (0.02, 0.5, 0.1), (0.0025, 0.5, 0.001), (0.1, 1e6, 3.5)]

@@ -96,6 +96,7 @@ def test_complex_forces_are_refused():
         subject(GO2, forces=np.ones((4, 3)) * 1j)
 
 
+@pytest.mark.slow
 def test_forces_on_one_body_are_summed_up_once():
     seen = subject("humanoid")
     texts = [text for text in seen.texts(seen.forces()) if text]
