@@ -237,7 +237,7 @@ def bare(text):
     return "".join(text.split())
 
 
-@pytest.mark.parametrize(("e", "part", "slip", "seed"), sampled(CELLS, 45, several=True, draw=40))
+@pytest.mark.parametrize(("e", "part", "slip", "seed"), sampled(CELLS, 45, several=True, draw=15))
 def test_a_slip_is_named(e, part, slip, seed):
     verdict = judge(e, settled(part.name, seed), part.slips[slip])
     assert verdict.state == "wrong"

@@ -182,7 +182,7 @@ def test_the_copy_without_a_fault_passes(tmp_path, run_tests):
     assert code == 0, printed
 
 
-@pytest.mark.parametrize("fault", sampled(FAULTS, 0, draw=5), ids=lambda fault: f"{fault.file}: {fault.slip}")
+@pytest.mark.parametrize("fault", sampled(FAULTS, 0, draw=3), ids=lambda fault: f"{fault.file}: {fault.slip}")
 def test_fault_is_noticed(fault, tmp_path, run_tests):
     tests = copy(tmp_path, fault)
     code, printed = run_tests(tmp_path, tests[:3])  # most faults need no more
