@@ -17,6 +17,8 @@ sys.path.insert(0, str(ROOT / "docs"))
 
 from website import beside, browser, formulas, links, pages, steps, tables, thumbnails  # noqa: E402
 
+from ..sampling import drawn  # noqa: E402
+
 TEXTS = sorted(path.name for path in pages.TEXT.glob("*.md") if not path.stem.endswith(".zh-CN"))
 
 
@@ -175,14 +177,14 @@ def test_bars_are_as_long_as_their_numbers_and_points_lie_by_their_logarithms():
 @pytest.mark.slow
 @pytest.mark.parametrize("language", pages.LANGUAGES)
 def test_every_study_has_a_picture_whose_letters_can_be_read(language):
-    for path, name in pages.pages().items():
-        if name in pages.studies():
-            text = (ROOT / pages.twin(path, language)).read_text(encoding="utf-8")
-            drawn = thumbnails.thumbnail(name, text, language)
-            label = re.search(r'aria-label="([^"]+)"', drawn)[1]
-            assert bool(re.search("[\u4e00-\u9fff]", label)) == (language == "zh")
-            rows = re.findall(r'<text x="3" [^>]*>([^<]*)</text><text [^>]*>([^<]*)<', drawn)
-            assert all(len(row) + len(cell) < 29 for row, cell in rows)  # of 6 units each, in 176
+    studies = [(path, name) for path, name in pages.pages().items() if name in pages.studies()]
+    for path, name in drawn(studies, 6):
+        text = (ROOT / pages.twin(path, language)).read_text(encoding="utf-8")
+        picture = thumbnails.thumbnail(name, text, language)
+        label = re.search(r'aria-label="([^"]+)"', picture)[1]
+        assert bool(re.search("[\u4e00-\u9fff]", label)) == (language == "zh")
+        rows = re.findall(r'<text x="3" [^>]*>([^<]*)</text><text [^>]*>([^<]*)<', picture)
+        assert all(len(row) + len(cell) < 29 for row, cell in rows)  # of 6 units each, in 176
 
 
 def test_a_page_without_a_chinese_file_says_so(tmp_path, monkeypatch):

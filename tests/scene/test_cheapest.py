@@ -249,7 +249,6 @@ def test_limbs_are_what_touches_nothing():
     assert limbs(GO2, GO2.feet) == {}
 
 
-@pytest.mark.slow
 def test_held_joints_that_are_still_cost_nothing():
     arms = [k for k, name in enumerate(HUMANOID.joint_names) if "shoulder" in name or "elbow" in name]
     q, v, a = WALK.q.copy(), WALK.v.copy(), WALK.a.copy()
@@ -291,7 +290,6 @@ def test_a_motion_without_feet_stands_on_the_scenes_contacts():
             np.testing.assert_allclose(option.errors[quantity], errors, rtol=0, atol=1e-12)
 
 
-@pytest.mark.slow
 def test_without_gravity_the_pendulum_does_not_apply_and_the_rest_does():
     walk = motions.walk(GO2, samples=8)
     some = quick(tw.Scene(GO2, gravity=[0, 0, 0]), walk)

@@ -61,7 +61,6 @@ def test_two_points_cannot_hold_a_humanoid_and_no_force_is_shown(space):
     assert not space.texts
 
 
-@pytest.mark.slow
 def test_a_sole_that_bears_nothing_has_its_force_in_its_middle():
     seen = subject(tw.Scene("humanoid", contacts=SOLES, gravity=[0, 0, 0]))
     middles = [tw.frame_placement(seen.model, seen.q, sole.frame).translation for sole in SOLES]
@@ -96,7 +95,6 @@ def test_complex_forces_are_refused():
         subject(GO2, forces=np.ones((4, 3)) * 1j)
 
 
-@pytest.mark.slow
 def test_forces_on_one_body_are_summed_up_once():
     seen = subject("humanoid")
     texts = [text for text in seen.texts(seen.forces()) if text]
