@@ -1,8 +1,8 @@
 """How many cases of a test a run tries, and how hypothesis runs here: without a clock.
 
 The plain run is what a reader would read: of a test with many cases it tries the first and the last, of one that is
-marked `one_case` the first. `pytest -m slow` tries others, a few that are drawn anew each time; with
-``TWISTWRENCH_DRAW=all`` each of them. A case that is named on the command line is always run.
+marked `one_case` the first. `pytest -m slow` tries others, a few that are drawn anew each time, and of the longest
+tests, `slow(one_in=3)`, a third; with ``TWISTWRENCH_DRAW=all`` all of them. What is named on the command line is run.
 """
 
 import os
@@ -62,6 +62,15 @@ def pytest_collection_modifyitems(config, items):
         most = max((item.get_closest_marker("slow").kwargs.get("draw", SLOW_CASES) for item in slow), default=0)
         if seed != "all" and len(slow) > most:
             left_out |= set(slow) - set(random.Random(seed + name).sample(slow, most))
+    if seed != "all" and not any("::" in name for name in config.invocation_params.args):
+        longest = [item for item in items if _one_in(item) > 1]
+        left_out |= {item for item in longest if random.Random(seed + item.nodeid).randrange(_one_in(item))}
     if left_out:
         config.hook.pytest_deselected(items=[item for item in items if item in left_out])
         items[:] = [item for item in items if item not in left_out]
+
+
+def _one_in(item):
+    """Return how many runs of the slow tests have a test once, by its mark."""
+    mark = item.get_closest_marker("slow")
+    return mark.kwargs.get("one_in", 1) if mark else 1

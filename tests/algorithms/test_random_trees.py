@@ -23,7 +23,7 @@ def test_every_quantity_is_right_to_the_last_digits_of_50(recipe):
     check_against_the_truth(recipe, np.float64)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(one_in=3)
 @given(recipes(40))
 @example(LONG_CHAIN)
 @example(BIG_TREE)

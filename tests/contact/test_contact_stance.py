@@ -175,7 +175,7 @@ def test_verdicts_are_those_of_a_linear_programme_and_come_with_their_proof(name
     assert otherwise == []
 
 
-@pytest.mark.slow
+@pytest.mark.slow(one_in=3)
 @pytest.mark.parametrize(("name", "count"), [("go2", 50), ("humanoid", 100), ("talos_reduced", 50), ("g1", 50)])
 def test_verdicts_of_a_hundred_poses(name, count):
     stand, strong, otherwise = compare(loaded(name), np.random.default_rng(2026), count)

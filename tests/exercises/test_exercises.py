@@ -333,7 +333,7 @@ def test_the_solutions_give_everything(tmp_path, language):
     assert "100 %" in str(found)
 
 
-@pytest.mark.slow
+@pytest.mark.slow(one_in=3)
 def test_a_path_through_pytest(tmp_path):
     start(tmp_path, language="en")
     fresh = pytest_in(tmp_path, "-rs").stdout

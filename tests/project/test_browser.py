@@ -57,7 +57,7 @@ def checkout(tmp_path_factory):
     return path
 
 
-@pytest.mark.slow
+@pytest.mark.slow(one_in=3)
 def test_our_tests_pass_in_a_browser(pyodide, checkout):
     wheels = [str(wheel) for group in runtime.GROUPS for wheel in runtime.wheels(pyodide, group)]
     asked = [*drawn(PART, 2), "-q", "-p", "no:cacheprovider", "-k", " and ".join(f"not {word}" for word in LEFT_OUT)]

@@ -23,7 +23,7 @@ def test_the_table_of_the_page_is_that_of_the_results(maker, language):
     assert set(maker.results()) == {trial.function for trial in maker.TRIALS if trial.function}
 
 
-@pytest.mark.slow
+@pytest.mark.slow(one_in=3)
 def test_each_trial_is_as_near_as_the_table_says(maker):
     """Roundings differ from one machine to another: up to ten times, and 1e-13 is enough."""
     pytest.importorskip("pinocchio", reason="Pinocchio is not installed: nothing is compared with it")

@@ -17,7 +17,7 @@ def test_both_languages_have_the_same_code():
     assert len(code[0]) == 6
 
 
-@pytest.mark.slow
+@pytest.mark.slow(one_in=3)
 def test_the_code_of_the_page_runs(capsys):
     """Its assertions hold, and what it prints is what the text says of it."""
     run(page("control"), blocks(ENGLISH, 0, len(ENGLISH)))
