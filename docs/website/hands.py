@@ -28,15 +28,15 @@ INTRO = {
 
 Small things to move: drag them, or use their sliders from the keyboard. Each is computed in the page, by the same
 formulas as in the package; nothing is loaded from elsewhere, and nothing moves until you press *Play*.""",
-    "zh": """# 拿在手里试
+    "zh": """# 动手试试
 
 可以动手摆弄的小东西：用鼠标拖动，或者用键盘移动滑块。全部在页面里计算，公式与本包相同；
 不从别处载入任何内容，按下「播放」之前什么都不会动。""",
 }
 NUMBERS = {"en": "The numbers", "zh": "数值"}
-COMMON = {"play": {"en": "Play", "zh": "播放"}, "pause": {"en": "Pause", "zh": "暂停"}}
+COMMON = {"play": {"en": "Play", "zh": "播放"}, "pause": {"en": "Pause", "zh": "暂停"}, "stop": {"en": ". ", "zh": "。"}, "comma": {"en": ", ", "zh": "，"}}
 TRY = {"en": "## What to try", "zh": "## 试一试"}
-BESIDE = {"en": "Take it in your hand:", "zh": "拿在手里试："}
+BESIDE = {"en": "Take it in your hand:", "zh": "动手试试："}
 
 
 def names() -> list[str]:

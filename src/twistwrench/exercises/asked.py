@@ -42,6 +42,7 @@ SAY = {
     "not zero": Text("It is not zero.", "它不是零。"),
     "guess": Text("your guess", "你猜的"),
     "truth": Text("computed", "算出的"),
+    "stop": Text(". ", "。"),
     "open": Text("The answer, once you have a guess", "有了猜测，再看答案"),
     "why": Text("Why", "为什么"),
     "not this": Text("Not this one.", "不是这个。"),
@@ -208,7 +209,7 @@ class Asked:
     def _answers(self, why: str) -> str:
         """Return what can be opened before a guess is typed: each choice with its verdict, or the number."""
         if not self.question.choices:
-            return _folded(self._say("open"), f"{escape(self._shown(self.truth))}. {why}")
+            return _folded(self._say("open"), f"{escape(self._shown(self.truth))}{self._say('stop')}{why}")
         parts = []
         for name in self.question.choices:
             guessed = Asked(self.question, self.facts, name, self.language)

@@ -98,7 +98,7 @@ hand.begin("feet", (root, words, robot) => {
     numbers.innerHTML = hand.table(["", ..."xyz", words.ratio, ""], robot.names.map((name, k) => [
       name, ...forces[k].map((x) => show(x, 1)), forces[k][2] > 0 ? show(Math.hypot(forces[k][0], forces[k][1]) / forces[k][2]) : "–",
       forces[k][2] < 0 ? words.pulls : slips(forces[k]) ? words.slides : "",
-    ]), words.unit) + `<p class="hand-verdict ${says === words.stands ? "" : "is-wrong"}" role="status">${words.margin} ${show(100 * margin, 1)} cm. ${says}</p>`;
+    ]), words.unit) + `<p class="hand-verdict ${says === words.stands ? "" : "is-wrong"}" role="status">${words.margin} ${show(100 * margin, 1)} cm${words.stop}${says}</p>`;
   }
   view.fit();
   tell();

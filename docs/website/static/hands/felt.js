@@ -94,7 +94,7 @@ hand.begin("felt", (root, words, { inertia }) => {
     const half = Math.hypot((M[0][0] - M[1][1]) / 2, M[0][1]), [least, most] = [middle - half, middle + half];
     numbers.innerHTML = hand.table(["", words.x, words.z], [
       [words.ax, ...M.map((row) => `${show(row[0], 3)} N`)], [words.az, ...M.map((row) => `${show(row[1], 3)} N`)],
-    ]) + `<p class="hand-verdict" role="status">${words.mass} ${mass} kg. ${words.feels} ${show(least, 3)} … ${show(most, 3)} kg. ${free.some(Boolean) ? words.ellipse : words.circle}</p>`;
+    ]) + `<p class="hand-verdict" role="status">${words.mass} ${mass} kg${words.stop}${words.feels} ${show(least, 3)} … ${show(most, 3)} kg${words.stop}${free.some(Boolean) ? words.ellipse : words.circle}</p>`;
   }
   build(1);
   view.fit();

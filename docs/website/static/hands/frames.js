@@ -67,7 +67,7 @@ hand.begin("frames", (root, words) => {
         [`V, ${words.in} A`, ...six(V)], [`V, ${words.in} B`, ...six(there.V)],
         [`F, ${words.in} A`, ...six(F)], [`F, ${words.in} B`, ...six(there.F)],
       ], words.unit)}
-      <p class="hand-verdict ${wrong ? "is-wrong" : ""}" role="status">${words.power}: F·V ${words.in} A = ${show(there.power, 4)} W, ${words.in} B = ${show(there.powerThere, 4)} W. ${wrong ? words.differs : words.equal}</p>`;
+      <p class="hand-verdict ${wrong ? "is-wrong" : ""}" role="status">${words.power}: F·V ${words.in} A = ${show(there.power, 4)} W${words.comma}${words.in} B = ${show(there.powerThere, 4)} W${words.stop}${wrong ? words.differs : words.equal}</p>`;
   }
   view.fit();
   tell();

@@ -94,7 +94,7 @@ hand.begin("tumbling", (root, words) => {
     const { L, R } = state(), six = (x) => x.map((c) => show(c));
     numbers.innerHTML = hand.table(["", ..."xyz"], [
       [words.omega, ...six(L.map((x, k) => x / I[k]))], [words.momentum_body, ...six(L)], [words.momentum_world, ...six(matvec(R, L))],
-    ], words.unit) + `<p class="hand-verdict">${words.constant} |L| = ${show(norm(L), 4)} N m s, E = ${show(hand.tumbling.energy(L, I), 4)} J. ${lean === 0 ? words.says_still : words[`says_${axis}`]}</p>`;
+    ], words.unit) + `<p class="hand-verdict">${words.constant} |L| = ${show(norm(L), 4)} ${words.momentum}${words.comma}E = ${show(hand.tumbling.energy(L, I), 4)} J${words.stop}${lean === 0 ? words.says_still : words[`says_${axis}`]}</p>`;
   }
   begin();
   left.fit();
