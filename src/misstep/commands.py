@@ -55,8 +55,8 @@ def _read(kind: Callable[[str], Number], text: str, least: Number, expected: str
     return value
 
 
-def register(parser: Any, course: str) -> None:
-    """Add the commands of a course to a parser; the module that holds it is read when it is needed."""
+def register(parser: Any, course: str) -> Any:
+    """Add the commands of a course to a parser, and return what adds more; the course is read when it is needed."""
     parser.set_defaults(course=course)
     actions = parser.add_subparsers(required=True, metavar="ACTION")
 
@@ -94,6 +94,7 @@ def register(parser: Any, course: str) -> None:
     add("--seed", type=at_least(0), metavar="N", help="of the random cases, the same for all; else drawn")
     add("--timeout", type=_seconds, metavar="S", help="seconds for one call of a function (10)")
     add("--jobs", type=at_least(1), metavar="N", help="folders at a time (one for each processor)")
+    return actions
 
 
 # ---------------------------------------------------------------- what each does; it imports what it needs

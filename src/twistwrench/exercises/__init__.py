@@ -22,6 +22,7 @@ chapter    `COURSE`: the sections, and all of the above
 questions  a room: what the notebooks ask before they show
 asked      a question, and the verdict on a guess
 asking     `ask`, which judges a guess
+pencil     ten questions to each section for paper and pencil
 public     the functions of this page
 items      a room: the exercises
 checking   the plugin of pytest in a student's folder

@@ -1,0 +1,185 @@
+"""Ten questions to each section that take a pencil and no computer: a sheet, its answers, and a file for Moodle."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from misstep.text import Language, Text
+
+from ..errors import check_known
+from .chapter import COURSE
+
+__all__ = ["SECTIONS", "PencilQuestion", "gift", "pencil_questions", "sheet"]
+
+SECTIONS = tuple(name for name in COURSE.sections if name.startswith("49."))
+NEAR = 0.01
+"""A number that is off by no more than this part of the answer is right, unless the question says otherwise."""
+LETTERS = "abcd"
+WORDS = {
+    "title": Text("{section} {title}: with a pencil", "{section} {title}：纸笔题"),
+    "answers": Text("{section} {title}: answers", "{section} {title}：答案"),
+    "note": Text(
+        "Paper and pencil, no computer. Twists are (ω, v), wrenches (τ, f); every number in SI units.",
+        "只用纸笔，不用计算机。twist 写成 (ω, v)，wrench 写成 (τ, f)；所有数值用 SI 单位。",
+    ),
+    "commas": Text("(Write the numbers with commas between them.)", "（数与数之间用逗号隔开。）"),
+    "unit": Text("(in {unit})", "（单位 {unit}）"),
+}
+
+
+@dataclass(frozen=True)
+class PencilQuestion:
+    """A question that is answered by numbers or by a choice.
+
+    Attributes
+    ----------
+    text, why : Text
+        What is asked, and why the answer is what it is.
+    numbers : tuple of float
+        The answer; empty where there are choices.
+    unit : str
+        Of the numbers; may be empty.
+    rtol : float
+        How far a number may be from the answer, as a part of it.
+    choices : tuple of Text
+    right : int
+        Which choice is right.
+    by : tuple of str
+        Expressions that compute the numbers, or are true if the choice is right. Tests evaluate them.
+    """
+
+    text: Text
+    why: Text
+    numbers: tuple[float, ...] = ()
+    unit: str = ""
+    rtol: float = NEAR
+    choices: tuple[Text, ...] = ()
+    right: int = 0
+    by: tuple[str, ...] = ()
+
+    def unit_in(self, language: Language) -> str:
+        """Return the unit as it is written in a language."""
+        return re.sub(r"(?<=[Ng]) m\b", "·m", self.unit) if language == "zh" else self.unit
+
+    def answer(self, language: Language) -> str:
+        """Return the answer in one language, a choice with its letter."""
+        if self.choices:
+            return f"{LETTERS[self.right]}) {self.choices[self.right].of(language)}"
+        numbers = ", ".join(f"{number:g}".replace("-", "−") for number in self.numbers)
+        return f"{numbers if len(self.numbers) == 1 else f'({numbers})'} {self.unit_in(language)}".rstrip()
+
+
+@cache
+def pencil_questions(section: str) -> tuple[PencilQuestion, ...]:
+    """Return the questions of a section.
+
+    Parameters
+    ----------
+    section : str
+        As "49.5".
+
+    Raises
+    ------
+    NameNotFound
+        If the chapter has no such section.
+
+    Examples
+    --------
+    >>> [question.answer("en") for question in pencil_questions("49.5")][:2]
+    ['(0, 0.12, 0.12) kg m²', '5']
+    """
+    check_known("section", section, SECTIONS)
+    source = files(__package__) / "pencil" / f"section_{section.replace('.', '_')}.toml"
+    return tuple(map(_question, tomllib.loads(source.read_text(encoding="utf-8"))["question"]))
+
+
+def _question(entry: Mapping[str, Any]) -> PencilQuestion:
+    given = {key: entry[key] for key in ("unit", "rtol", "right") if key in entry}
+    number = entry.get("number", [])
+    numbers = tuple(number) if isinstance(number, list) else (number,)
+    choices = tuple(Text(*pair) for pair in entry.get("choices", []))
+    by = tuple(entry.get("by", []))
+    return PencilQuestion(Text(*entry["text"]), Text(*entry["why"]), numbers, choices=choices, by=by, **given)
+
+
+def sheet(section: str, language: Language = "en", *, answers: bool = False) -> str:
+    """Return the sheet of a section as Markdown, with or without the answers.
+
+    Examples
+    --------
+    >>> print(sheet("49.5", answers=True).splitlines()[5])
+    4. **2 J** ½ VᵀÎV = ½ (2 · 1 + 1 · 2).
+    """
+    questions = pencil_questions(section)
+    title = WORDS["answers" if answers else "title"].fill(section=section, title=COURSE.sections[section])
+    lines = [f"# {title.of(language)}", ""]
+    lines += [] if answers else [WORDS["note"].of(language), ""]
+    for k, question in enumerate(questions, start=1):
+        if answers:
+            lines.append(f"{k}. **{plain(question.answer(language))}** {plain(question.why.of(language))}")
+        else:
+            lines += [f"{k}. {plain(question.text.of(language))}", ""]
+            lines += [f"   {LETTERS[j]}) {plain(choice.of(language))}\n" for j, choice in enumerate(question.choices)]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def plain(text: str) -> str:
+    r"""Return a text with nothing in it that Markdown would take for its own, but code.
+
+    Examples
+    --------
+    >>> print(plain("X* of `X_i`"))
+    X\* of `X_i`
+    """
+    pieces = re.split(r"(`[^`]+`)", text)
+    return "".join(piece if k % 2 else re.sub(r"([*_\[\]<>$\\])", r"\\\1", piece) for k, piece in enumerate(pieces))
+
+
+def gift(section: str, language: Language = "en") -> str:
+    r"""Return the questions of a section in Moodle's GIFT format, which other learning platforms read as well.
+
+    A single number is asked with its tolerance, several as a short answer with commas, a choice by its letter.
+
+    Examples
+    --------
+    >>> print(gift("49.5").splitlines()[4].partition("inertia? ")[2])
+    {#5:0.05####One motion costs nothing\: turning about its own rod. One point has rank 3.}
+    """
+    return f"$CATEGORY: twistwrench/{section}\n\n" + "\n\n".join(
+        f"::{section}.{k}::[plain]{_escaped(_asked(question, language))} {{{_expected(question, language)}}}"
+        for k, question in enumerate(pencil_questions(section), start=1)
+    )
+
+
+def _asked(question: PencilQuestion, language: Language) -> str:
+    unit = WORDS["unit"].fill(unit=question.unit_in(language)).of(language) if question.unit else ""
+    commas = WORDS["commas"].of(language) if len(question.numbers) > 1 else ""
+    return " ".join(filter(None, [question.text.of(language), unit, commas]))
+
+
+def _expected(question: PencilQuestion, language: Language) -> str:
+    why = f"####{_escaped(question.why.of(language))}"
+    if question.choices:
+        marks = ("=" if k == question.right else "~" for k in range(len(question.choices)))
+        return (
+            " ".join(mark + _escaped(choice.of(language)) for mark, choice in zip(marks, question.choices, strict=True))
+            + why
+        )
+    if len(question.numbers) == 1:
+        (number,) = question.numbers
+        return f"#{number:g}:{abs(number) * max(question.rtol, NEAR):.3g}{why}"
+    numbers = [f"{number:g}" for number in question.numbers]
+    spellings = [mark.join(numbers) for mark in (", ", ",")]
+    spellings += [f"({spelling})" for spelling in spellings]
+    return " ".join(f"={_escaped(spelling)}" for spelling in spellings) + why
+
+
+def _escaped(text: str) -> str:
+    """Return a text for GIFT, which has marks of its own."""
+    return re.sub(r"([\\~=#{}:])", r"\\\1", text)
