@@ -37,6 +37,7 @@ from website import (
     links,
     notebooks,
     pages,
+    pencil,
 )
 
 OUT = pages.ROOT / "build" / "site"
@@ -61,6 +62,7 @@ def stage(languages: Sequence[str], draft: bool, done: Callable[[str], None]) ->
         interface.write_interface(tree, language)
         beside.write_algorithms(tree, language)
         hands.write_hands(tree, language)
+        pencil.write_pencil(tree, language)
     mathjax = next(f for f in files("sphinx-mathjax-offline") or [] if f.name == MATHJAX)
     target = OUT / "static" / "mathjax" / MATHJAX
     pages.write(target, mathjax.read_text(encoding="utf-8"))

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from twistwrench.tracing.anchors import anchor_of
 
-from . import steps
+from . import pencil, steps
 from .pages import ROOT, joined, write
 from .sketches import sketch
 
@@ -92,6 +92,7 @@ def page(name: str, language: str) -> str:
         f"# {said['title'][language]}",
         steps.step_through(said, language),
         joined(said["intro"][language].strip(), language),
+        pencil.invitation(name, language),
         WORDS[language][2].format(call),
         LINES[language],
     ]

@@ -10,8 +10,9 @@ import nbformat
 from misstep import skeletons
 from misstep.text import Language, wrapped
 from twistwrench.exercises.chapter import COURSE
+from twistwrench.exercises.pencil import plain
 
-from . import beside, figures, hands, inpage, interface, notebooks
+from . import beside, figures, hands, inpage, interface, notebooks, pencil
 from .pages import ROOT, SUFFIX, contents, joined, write
 
 INTRO = {
@@ -75,12 +76,12 @@ def write_chapter(out: Path, language: str) -> None:
         below = [f"{say[what]}{say['colon']}{', '.join(links)}" for what, links in beside_it.items() if links]
         title = f"[{_title(name, language)}]({name}.ipynb)"
         doors.append(_door(_seen(out, name), title, below))
-    for name, text in (("exercises", EXERCISES), ("../hands/index", hands.INTRO)):
+    for name, text in (("exercises", EXERCISES), ("../pencil/index", pencil.INDEX), ("../hands/index", hands.INTRO)):
         title, first = text[language].split("\n\n")[:2]
-        seen = hands.thumbnail("feet" if name == "exercises" else "frames")
+        seen = hands.thumbnail({"exercises": "feet", "../pencil/index": "field"}.get(name, "frames"))
         doors.append(_door(seen, f"[{title.removeprefix('# ')}]({name}.md)", [joined(_sentence(first), language)]))
     path = "\n".join(["::::{container} doors", *doors, "::::"])
-    inside = contents([*notebooks.names(), "exercises", "../hands/index"], hidden=True)
+    inside = contents([*notebooks.names(), "exercises", "../pencil/index", "../hands/index"], hidden=True)
     parts = [joined(INTRO[language], language), path, inside]
     write(out / "chapter" / "index.md", "\n\n".join(parts) + "\n")
     write(out / "chapter" / "exercises.md", _exercises(language))
@@ -109,18 +110,12 @@ def _exercises(language: Language) -> str:
         number = f"{section} " if section.startswith("49") else ""
         parts.append(f"## {number}{title.of(language)}")
         for exercise in COURSE.of_section(section):
-            parts.append(f"### {exercise.id} {_markdown(exercise.title.of(language))}")
-            parts += map(_markdown, wrapped(exercise.text.of(language), 10**6))
+            parts.append(f"### {exercise.id} {plain(exercise.title.of(language))}")
+            parts += map(plain, wrapped(exercise.text.of(language), 10**6))
             parts.append(
                 ANSWER.format(exercise.id, inpage.SAY[language]["answer"], skeletons.place(exercise, language))
             )
     return "\n\n".join(parts) + "\n"
-
-
-def _markdown(text: str) -> str:
-    """Return a text with nothing in it that Markdown would take for its own, but code."""
-    pieces = re.split(r"(`[^`]+`)", text)
-    return "".join(piece if k % 2 else re.sub(r"([*_\[\]<>$\\])", r"\\\1", piece) for k, piece in enumerate(pieces))
 
 
 def _number(name: str) -> str:

@@ -25,6 +25,7 @@ SUFFIX = {"en": "", "zh": ".zh-CN"}
 
 LOOK_UP = ("companion", "mirror", "errata", "conventions", "map", "traps", "everyday", "glossary")
 PROJECT = ("contributing", "changelog", "models", "exercises")
+CLASS = ("teaching", "exam")
 ONE_BY_ONE = {
     "README.md": "readme",
     "CHANGELOG.md": "changelog",
@@ -66,8 +67,8 @@ def twin(path: str, language: str) -> str:
 
 
 def studies() -> list[str]:
-    """Return the names of the pages that are neither for looking up nor about the project."""
-    return [name for name in pages().values() if name not in (*LOOK_UP, *PROJECT, "readme")]
+    """Return the names of the pages that are neither for looking up, for class nor about the project."""
+    return [name for name in pages().values() if name not in (*LOOK_UP, *PROJECT, *CLASS, "readme")]
 
 
 def write_pages(out: Path, language: str) -> None:
