@@ -58,8 +58,8 @@ SAY = {
 INDEX = {
     "en": """# For class
 
-Ten questions to each section, to be done with a pencil, in class or before it: click for the answer, or print the sheet.
-Where the section has a recursion, its lines are there to be put in order. For teachers: [ninety minutes at the
+Ten questions to each section, to be done with a pencil, in class or before it: click for the answer, or print the
+sheet. Where the section has a recursion, its lines are there to be put in order. For teachers: [ninety minutes at the
 board](../teaching.md) for each section, [questions for an exam](../exam.md) with what earns each point, slides, and
 [how to grade](../instructors.md).""",
     "zh": """# 课堂用题

@@ -1,4 +1,4 @@
-"""The questions inside the page: the lines of a recursion run in the orders that the page calls right, and in no others."""
+"""The questions inside the page: the orders of a recursion that the page calls right run, and no others do."""
 
 import json
 import re
