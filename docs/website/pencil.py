@@ -13,8 +13,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from twistwrench.exercises.chapter import COURSE
-from twistwrench.exercises.pencil import LETTERS, SECTIONS, WORDS, PencilQuestion, gift, pencil_questions, plain
+from twistwrench.exercises.pencil import LETTERS, SECTIONS, WORDS, PencilQuestion, gift, note, pencil_questions, plain
 
 from .pages import contents, joined, write
 
@@ -88,11 +87,11 @@ def invitation(algorithm: str, language: str) -> str:
 def page(section: str, language: str) -> str:
     """Return the page of a section, as Markdown for MyST."""
     say = SAY[language]
-    title = WORDS["title"].fill(section=section, title=COURSE.sections[section]).of(language)
+    title = WORDS["title"].fill(section=section).of(language)
     buttons = "".join(
         f'<button type="button" data-print="{kind}">{say[kind]}</button>' for kind in ("sheet", "answers")
     )
-    parts = [f"# {title}", plain(WORDS["note"].of(language))]
+    parts = [f"# {title}", note(section, language)]
     parts.append(f'```{{raw}} html\n<div class="pencil-bar">{buttons}</div>\n```')
     parts += [_question(k, question, language) for k, question in enumerate(pencil_questions(section), start=1)]
     parts += [puzzle(one, language) for one in recursions().values() if one["section"] == section]

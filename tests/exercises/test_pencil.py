@@ -341,7 +341,7 @@ def test_the_sheet_asks_and_does_not_tell(language):
 def test_the_command_prints_a_sheet_and_refuses_what_is_no_section():
     run = [sys.executable, "-m", "twistwrench", "exercises", "sheet"]
     printed = subprocess.run([*run, "49.5", "--language", "zh", "--answers"], capture_output=True, check=True)
-    assert printed.stdout.decode().startswith("# 49.5 空间惯量：答案")
+    assert printed.stdout.decode().startswith("# 49.5 纸笔题：答案")
     refused = subprocess.run([*run, "50.1"], capture_output=True, check=False)
     assert refused.returncode
     assert b"49.1" in refused.stderr

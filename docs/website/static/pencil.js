@@ -1,7 +1,7 @@
 // The questions of a section are printed as a sheet, with or without their answers.
 function printSheet(withAnswers) {
-  const open = [...document.querySelectorAll(".pencil details")].map((fold) => [fold, fold.open]);
-  for (const [fold] of open) fold.open = withAnswers && fold.matches(".answer, .right");
+  const open = [...document.querySelectorAll(":is(.pencil, .order) details")].map((fold) => [fold, fold.open]);
+  for (const [fold] of open) fold.open = withAnswers && fold.matches(".answer, .right, .order details");
   document.documentElement.classList.toggle("with-answers", withAnswers);
   window.print();
   for (const [fold, was] of open) fold.open = was;

@@ -22,11 +22,11 @@ NEAR = 0.01
 """A number that is off by no more than this part of the answer is right, unless the question says otherwise."""
 LETTERS = "abcd"
 WORDS = {
-    "title": Text("{section} {title}: with a pencil", "{section} {title}：纸笔题"),
-    "answers": Text("{section} {title}: answers", "{section} {title}：答案"),
+    "title": Text("{section} with a pencil", "{section} 纸笔题"),
+    "answers": Text("{section} with a pencil: answers", "{section} 纸笔题：答案"),
     "note": Text(
-        "Paper and pencil, no computer. Twists are (ω, v), wrenches (τ, f); every number in SI units.",
-        "只用纸笔，不用计算机。twist 写成 (ω, v)，wrench 写成 (τ, f)；所有数值用 SI 单位。",
+        "**{title}.** Paper and pencil, no computer. Twists are (ω, v), wrenches (τ, f); every number in SI units.",
+        "**{title}**。只用纸笔，不用计算机。twist 写成 (ω, v)，wrench 写成 (τ, f)；所有数值用 SI 单位。",
     ),
     "commas": Text("(Write the numbers with commas between them.)", "（数与数之间用逗号隔开。）"),
     "unit": Text("(in {unit})", "（单位 {unit}）"),
@@ -117,9 +117,9 @@ def sheet(section: str, language: Language = "en", *, answers: bool = False) -> 
     4. **2 J** ½ VᵀÎV = ½ (2 · 1 + 1 · 2).
     """
     questions = pencil_questions(section)
-    title = WORDS["answers" if answers else "title"].fill(section=section, title=COURSE.sections[section])
+    title = WORDS["answers" if answers else "title"].fill(section=section)
     lines = [f"# {title.of(language)}", ""]
-    lines += [] if answers else [WORDS["note"].of(language), ""]
+    lines += [] if answers else [note(section, language), ""]
     for k, question in enumerate(questions, start=1):
         if answers:
             lines.append(f"{k}. **{plain(question.answer(language))}** {plain(question.why.of(language))}")
@@ -127,6 +127,11 @@ def sheet(section: str, language: Language = "en", *, answers: bool = False) -> 
             lines += [f"{k}. {plain(question.text.of(language))}", ""]
             lines += [f"   {LETTERS[j]}) {plain(choice.of(language))}\n" for j, choice in enumerate(question.choices)]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def note(section: str, language: Language) -> str:
+    """Return what stands above the questions of a section: its title, and how numbers are written."""
+    return WORDS["note"].fill(title=COURSE.sections[section]).of(language)
 
 
 def plain(text: str) -> str:
