@@ -24,7 +24,7 @@ from urllib.parse import quote
 from .pages import LANGUAGES
 
 PAGES = ("index", "chapter/49_06_rnea", "algorithms/rnea", "api/algorithms/rnea", "errata", "conventions")
-PAGES += ("hands/frames", "hands/feet", "map", "algorithms/index", "chapter/index", "gallery", "trade")
+PAGES += ("hands/frames", "hands/feet", "map", "algorithms/index", "chapter/index", "gallery", "trade", "pencil/49_07")
 WIDE, NARROW = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 SOUGHT = {
     "en": {"mass matrix": "49_08_crba", "errata": "errata", "aba": "49_07_aba", "Jacobian frame": "kinematics"},

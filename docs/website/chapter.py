@@ -29,8 +29,8 @@ or download the notebook.""",
 想改动代码、看看哪些结论还成立，页面上有「运行」按钮时就在页面里运行，或者下载笔记本。""",
 }
 WORDS = {
-    "en": {"lines": "Line by line", "functions": "Functions", "wrong": "Errata", "colon": ": "},
-    "zh": {"lines": "逐行读", "functions": "函数", "wrong": "勘误", "colon": "："},
+    "en": {"lines": "Line by line", "functions": "Functions", "pencil": "Pencil", "wrong": "Errata", "colon": ": "},
+    "zh": {"lines": "逐行读", "functions": "函数", "pencil": "纸笔题", "wrong": "勘误", "colon": "："},
 }
 SHOWN = {"49_02_twist": 2, "49_03_pluecker": 1, "49_04_wrench": 2, "49_05_inertia": 1, "49_06_rnea": 1, "49_08_crba": 1}
 SHOWN |= {"49_09_floating_base": 1, "49_10_centroidal": 1, "scenes": 1}
@@ -72,7 +72,8 @@ def write_chapter(out: Path, language: str) -> None:
         functions = [page for page in interface.by_page() if at.get(page) == number]
         files = [f"[`{page.split('/')[-1]}`](../api/{page}.md)" for page in functions]
         wrong = [f"[{number}](../errata.md#{errata[number]})"] if number in errata else []
-        beside_it = {"lines": lines, "functions": files, "wrong": wrong}
+        on_paper = [f"[{number}](../pencil/{pencil.name_of(number)}.md)"] if number else []
+        beside_it = {"lines": lines, "functions": files, "pencil": on_paper, "wrong": wrong}
         below = [f"{say[what]}{say['colon']}{', '.join(links)}" for what, links in beside_it.items() if links]
         title = f"[{_title(name, language)}]({name}.ipynb)"
         doors.append(_door(_seen(out, name), title, below))
