@@ -24,6 +24,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import runtime
+import slides
 from website import (
     beside,
     browser,
@@ -140,6 +141,7 @@ def main() -> int:
     write_door(html)
     inpage.write_runtime(html)
     inpage.write_downloads(html, languages, notebooks.names())
+    slides.write_slides(html, languages)
     if not given.draft:
         exchange(html, OUT / "html")
     done(f"built {OUT / 'html' / 'index.html'}")

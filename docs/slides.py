@@ -15,7 +15,7 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from html import escape
 from importlib.metadata import files
 from pathlib import Path
@@ -94,15 +94,29 @@ def slides(notebook: nbformat.NotebookNode) -> list[str]:
     return [f'<section><div class="fit">{"".join(parts)}</div></section>' for parts in found]
 
 
-def page(path: Path, language: str) -> str:
-    """Return a notebook as one page of slides."""
+def page(path: Path, language: str, script: str = "") -> str:
+    """Return a notebook as one page of slides, with MathJax inside or, where it is beside the page, as a script."""
     notebook = nbformat.read(path, as_version=4)
     title = notebook.cells[0].source.splitlines()[0].removeprefix("# ")
-    script = next(file for file in files("sphinx-mathjax-offline") or [] if file.name == MATHJAX)
     parts = {"lang": LANGUAGES[language], "title": escape(title), "slides": "\n".join(slides(notebook))}
     parts["highlight"] = HtmlFormatter().get_style_defs(".highlight")
-    parts["mathjax"] = script.read_text(encoding="utf-8").replace("</script", "<\\/script")
+    parts["mathjax"] = f'<script src="{script}"></script>' if script else f"<script>{mathjax()}</script>"
     return TEMPLATE.read_text(encoding="utf-8").format(**parts)
+
+
+def mathjax() -> str:
+    """Return the text of MathJax, to stand in a page."""
+    own = next(file for file in files("sphinx-mathjax-offline") or [] if file.name == MATHJAX)
+    return own.read_text(encoding="utf-8").replace("</script", "<\\/script")
+
+
+def write_slides(html: Path, languages: Sequence[str]) -> None:
+    """Write the slides of all notebooks beside the pages of the site, whose MathJax they use."""
+    for language in languages:
+        for path in sorted((ROOT / "notebooks" / language).glob("*.ipynb")):
+            target = html / language / "slides" / f"{path.stem}.html"
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(page(path, language, f"../_static/mathjax/{MATHJAX}"), encoding="utf-8")
 
 
 def main(arguments: list[str] | None = None) -> int:

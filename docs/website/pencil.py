@@ -15,6 +15,7 @@ from typing import Any
 
 from twistwrench.exercises.pencil import LETTERS, SECTIONS, WORDS, PencilQuestion, gift, note, pencil_questions, plain
 
+from . import notebooks
 from .pages import contents, joined, write
 
 RECURSIONS = Path(__file__).with_name("recursions.toml")
@@ -26,6 +27,7 @@ SAY = {
         "sheet": "Print the sheet",
         "answers": "Print it with the answers",
         "moodle": "For Moodle and others (GIFT)",
+        "slides": "Slides of this section's notebook",
         "order": "Put the lines in order",
         "check": "Check",
         "up": "up",
@@ -43,6 +45,7 @@ SAY = {
         "sheet": "打印题目",
         "answers": "打印题目和答案",
         "moodle": "导入 Moodle 等平台（GIFT）",
+        "slides": "本节笔记本的幻灯片",
         "order": "把各行排好顺序",
         "check": "检查",
         "up": "上移",
@@ -96,6 +99,9 @@ def page(section: str, language: str) -> str:
     parts += [_question(k, question, language) for k, question in enumerate(pencil_questions(section), start=1)]
     parts += [puzzle(one, language) for one in recursions().values() if one["section"] == section]
     parts.append(f"{{download}}`{say['moodle']} <{name_of(section)}.gift.txt>`")
+    begins = "00" if section == "49.0" else name_of(section)
+    slides = next(name for name in notebooks.names() if name.startswith(begins))
+    parts.append(f'```{{raw}} html\n<p><a href="../slides/{slides}.html">{say["slides"]}</a></p>\n```')
     parts.append('```{raw} html\n<script src="../_static/pencil.js"></script>\n```')
     return "\n\n".join(parts) + "\n"
 

@@ -280,6 +280,11 @@ def test_both_languages_ask_with_the_same_numbers():
             assert all(float(number) in range(1, 7) for number in en ^ zh), (name, en ^ zh)
 
 
+def test_chinese_has_a_dot_in_a_product_of_units():
+    units = {question.unit: question.unit_in("zh") for question in ALL.values()}
+    assert (units["N m"], units["kg m²"], units["kg m/s, m/s"], units["m"]) == ("N·m", "kg·m²", "kg·m/s, m/s", "m")
+
+
 # ---------------------------------------------------------------- sheets, and Moodle
 
 

@@ -154,6 +154,14 @@ def test_a_page_asks_all_ten_and_hides_the_answers(language):
         assert not [question.why.of(language) for question in questions if question.why.of(language) in outside]
 
 
+@pytest.mark.parametrize("language", pages.LANGUAGES)
+def test_a_page_leads_to_the_slides_of_its_notebook(language):
+    for section in SECTIONS:
+        (name,) = re.findall(r'href="../slides/(\w+)\.html"', pencil.page(section, language))
+        assert (ROOT / "notebooks" / language / f"{name}.ipynb").exists()
+        assert name.startswith("00_first" if section == "49.0" else pencil.name_of(section))
+
+
 def test_the_lines_are_shuffled_and_none_is_lost():
     for name, given in RECURSIONS.items():
         html = pencil.puzzle(given, "en")

@@ -154,7 +154,9 @@ def test_slides_need_no_network(tmp_path):
     (written,) = tmp_path.rglob("*.html")
     html = written.read_text(encoding="utf-8")
     assert not re.search(r"""(?:src|href)=["'](?!data:|#)""", html.partition("<script>")[0])
-    assert "MathJax" in html
+    assert len(html) > 2e6  # MathJax is inside
+    beside = tool().page(ROOT / "notebooks" / "zh" / "49_07_aba.ipynb", "zh", "../mathjax.js")
+    assert beside.rstrip().endswith('<script src="../mathjax.js"></script>')
 
 
 def test_formulas_of_slides_stay_tex_and_links_become_words():

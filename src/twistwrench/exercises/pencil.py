@@ -65,7 +65,7 @@ class PencilQuestion:
 
     def unit_in(self, language: Language) -> str:
         """Return the unit as it is written in a language."""
-        return re.sub(r"(?<=[Ng]) m\b", "·m", self.unit) if language == "zh" else self.unit
+        return re.sub(r"(?<=[Ng]) m(?![a-z])", "·m", self.unit) if language == "zh" else self.unit
 
     def answer(self, language: Language) -> str:
         """Return the answer in one language, a choice with its letter."""
