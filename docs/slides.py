@@ -6,8 +6,8 @@ usage:  python docs/slides.py 49_07                  build/slides/en/49_07_aba.h
 
 Each heading begins a slide, and so does each question or text that follows something else, and each picture. Set-up
 and what checks the claims are left out; of a picture only the picture is shown. Keys: right and left for the slides,
-down for the next answer that is folded. Printed, each slide is a page. What is shown is what the notebook keeps (`python
-notebooks/execute.py`). Needs `pip install -e ".[docs]"`.
+down for the next answer that is folded. Printed, each slide is a page. What is shown is what the notebook keeps
+(`python notebooks/execute.py`). Needs `pip install -e ".[docs]"`.
 """
 
 from __future__ import annotations
