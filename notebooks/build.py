@@ -17,7 +17,11 @@ into the one whose language it names; an English cell is followed by the Chinese
 Asserts at the top of a code cell, and what draws a picture from its figure to `plt.show()`, go into cells of their own
 after it, whose code is folded away: a reader sees what is computed, and unfolds the rest. A cell that tells the answer
 of an exercise says which, `after="49.6.3"`: it is folded away with its outputs, and opened after that exercise. What
-only prepares the rest, imports and names, is marked `setup="yes"`, and folded as well.
+only prepares the rest, imports and names, is marked `setup="yes"`, and folded as well. The picture that stands for the
+notebook on the chapter's page is that of the cell marked `thumbnail="yes"`.
+
+A page that only the site has, `[RNEA as a film](../hands/film.md)`, is called by its name in the notebook, where the
+link would lead nowhere; the site makes it a link again.
 
 What a notebook shows is kept while its code stays the same; `python notebooks/execute.py` runs it anew.
 
@@ -137,6 +141,12 @@ SETUP = {"en": "# Set-up", "zh": "# 准备"}
 """The first line of a cell that prepares."""
 FOLDED_AFTER = {**FOLDED, "jupyter": {"source_hidden": True, "outputs_hidden": True}, "tags": ["hide-cell"]}
 """The same, with the outputs."""
+THUMBNAIL = "thumbnail"
+"""The tag of the cell whose picture stands for the notebook."""
+SITE_PAGE = re.compile(r"\[((?:[^\[\]]|\[[^\]]*\])+)\]\(\.\./(?:hands|algorithms)/\w+\.md\)")
+"""A link to a page that only the site has."""
+CALLED = {"en": "*{}*", "zh": "“{}”"}
+"""How a notebook calls such a page."""
 DRAWS = re.compile(r"\b(plt|plot|ax|axes|axis|figure|fig|picture)\b")
 
 
@@ -164,6 +174,12 @@ def unfolded(code: str) -> list[tuple[str, bool]]:
         return [(code, False)] if len(drawn) < 4 else [(f"{DRAWING}\n{code}", True)]
     cells = [("\n".join([*shown, rest]).strip("\n"), False)] if shown else []
     return cells + [(head + "\n" + "\n".join(part).strip("\n"), True) for head, part in folded]
+
+
+def without_site(text: str, language: str) -> tuple[str, dict[str, str]]:
+    """Return a text that calls the pages of the site by their names, and for each name as it stands there its link."""
+    links = {CALLED[language].format(found[1]): found[0] for found in SITE_PAGE.finditer(text)}
+    return SITE_PAGE.sub(lambda found: CALLED[language].format(found[1]), text), links
 
 
 def _is_claim(node: ast.stmt) -> bool:
@@ -248,13 +264,16 @@ def build(source: Path, language: str) -> str:
             notebook.cells.append(nbformat.v4.new_code_cell(f"{SETUP[language]}\n{code}", metadata=FOLDED))
         elif cell.cell_type == "code":
             for code, folded in unfolded(cell.source):
+                stands = [THUMBNAIL] if THUMBNAIL in cell.metadata and "plt.show()" in code else []
                 code = in_chinese(code, own) if language == "zh" else code
-                notebook.cells.append(nbformat.v4.new_code_cell(code, metadata=FOLDED if folded else {}))
+                metadata = {**FOLDED, "tags": [*FOLDED["tags"], *stands]} if folded else {"tags": stands} if stands else {}
+                notebook.cells.append(nbformat.v4.new_code_cell(code, metadata=metadata))
         elif cell.metadata["lang"] == language:
             text = chinese(cell.source) if language == "zh" else cell.source
             if "after" in cell.metadata:
                 text = f"<details>\n<summary>{head}</summary>\n\n{text}\n\n</details>"
-            notebook.cells.append(nbformat.v4.new_markdown_cell(text))
+            text, links = without_site(text, language)
+            notebook.cells.append(nbformat.v4.new_markdown_cell(text, metadata={"site": links} if links else {}))
     for k, cell in enumerate(notebook.cells):
         cell.id = f"cell-{k:02}"  # the same in every build: only what changed shows in a diff
     nbformat.validate(notebook)

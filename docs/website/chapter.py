@@ -32,9 +32,6 @@ WORDS = {
     "en": {"lines": "Line by line", "functions": "Functions", "pencil": "Pencil", "wrong": "Errata", "colon": ": "},
     "zh": {"lines": "逐行读", "functions": "函数", "pencil": "纸笔题", "wrong": "勘误", "colon": "："},
 }
-SHOWN = {"49_02_twist": 2, "49_03_pluecker": 1, "49_04_wrench": 2, "49_05_inertia": 1, "49_06_rnea": 1, "49_08_crba": 1}
-SHOWN |= {"49_09_floating_base": 1, "49_10_centroidal": 1, "scenes": 1}
-"""Which picture of a notebook stands for it; of the others, the first."""
 EXERCISES = {
     "en": """# Exercises
 
@@ -93,9 +90,10 @@ def _door(seen: str, title: str, below: list[str]) -> str:
 
 
 def _seen(out: Path, name: str) -> str:
-    """Return a picture of a notebook that was run."""
+    """Return the picture of a notebook that was run which stands for it; of one that marks none, the first."""
     drawn = [*figures.figures(nbformat.read(out / "chapter" / f"{name}.ipynb", as_version=4))]
-    picture = drawn[min(SHOWN.get(name, 0), len(drawn) - 1)]
+    marked = (picture for picture in drawn if "thumbnail" in picture.cell.metadata.get("tags", ()))
+    picture = next(marked, drawn[0])
     return figures.image(picture.file, picture.says, link=f"{name}.html")
 
 

@@ -97,7 +97,15 @@ def write_notebooks(out: dict[str, Path], cache: Path, draft: bool = False) -> N
         list(pool.map(execute, waiting, waiting.values()))
     for path, result in results.items():
         done = with_outputs(nbformat.read(path, as_version=4), nbformat.read(result, as_version=4))
-        write(out[path.parent.name] / "chapter" / path.name, nbformat.writes(figures.with_words(done)))
+        write(out[path.parent.name] / "chapter" / path.name, nbformat.writes(figures.with_words(linked(done))))
+
+
+def linked(notebook: nbformat.NotebookNode) -> nbformat.NotebookNode:
+    """Make links of the names by which a notebook calls pages that only the site has."""
+    for cell in notebook.cells:
+        for name, link in cell.metadata.get("site", {}).items():
+            cell.source = cell.source.replace(name, link)
+    return notebook
 
 
 def with_outputs(notebook: nbformat.NotebookNode, done: nbformat.NotebookNode) -> nbformat.NotebookNode:

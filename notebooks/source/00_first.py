@@ -22,35 +22,23 @@ from twistwrench import plot
 
 # %% [markdown] lang="en"
 # `tw.robots()` lists what else there is; a path to a URDF file works as well. Go2 has 12 motors, and its trunk is not
-# bolted to anything. How many numbers does its posture `q` take, and how many its velocity `v`? Guess, then run the cell.
+# bolted to anything. Its posture `q` says where the trunk is and how it is turned, then the angles of the joints:
 # %% [markdown] lang="zh"
 # `tw.robots()` 列出目录里的其他机器人;给一个 URDF 文件的路径也行。Go2 有 12 个电机,躯干没有固定在任何东西上。
-# 它的位形 `q` 要几个数,速度 `v` 要几个数?先猜一猜,再运行单元格。
+# 它的位形 `q` 先说躯干在哪里、怎样转,再说各关节的角度:
 # %%
 q = model.standing()  # a posture with all four feet on the floor
 assert (model.nq, model.nv) == (19, 18)
 assert q.shape == (19,)
-print("numbers of q and of v:", model.nq, model.nv)
 print("base position", q[:3].round(3), " quaternion x, y, z, w", q[3:7])
 print("front left leg: hip, thigh, calf", q[7:10], "rad")
 # %% [markdown] lang="en"
-# <details>
-# <summary>Why are they not the same?</summary>
-#
-# The trunk can move in six ways, three to turn and three to go: 6 + 12 = 18. But *where* it is takes seven numbers, a position and
-# a quaternion, whose four numbers always have the length 1: 7 + 12 = 19. Which of them a library writes first is
-# another matter. On the site you can paste the state of one library, and read it as another one writes it:
-# [Translate my numbers](../hands/translate.md).
-#
-# </details>
+# The first cell says `nq = 19`, `nv = 18`: a posture takes one number more than a velocity. Why? That is exercise 49.1.1.
+# Which number a library writes first is another matter. On the site you can paste the state of one library, and read it
+# as another one writes it: [Translate my numbers](../hands/translate.md).
 # %% [markdown] lang="zh"
-# <details>
-# <summary>为什么不一样多?</summary>
-#
-# 躯干有六种动法,三种转动、三种移动:6 + 12 = 18。而它*在哪里*要七个数,位置加四元数,四元数的四个数长度总是 1:7 + 12 = 19。
+# 第一个单元格里写着 `nq = 19`、`nv = 18`:位形比速度多一个数。为什么?这是练习 49.1.1 的问题。
 # 各个库先写哪个数,又各不相同。在网站上可以粘贴一个库的状态,看另一个库怎样写:[换算我的数](../hands/translate.md)。
-#
-# </details>
 # %% [markdown] lang="en"
 # ## What holds it up?
 #
@@ -91,19 +79,18 @@ assert np.abs(tau[6:]).max() < model.effort_limit[6:].min()
 # %% [markdown] lang="en"
 # ## Is that right?
 #
-# Never believe one program alone. **First**, a different way in the same package: the equation of motion is
-# $M\,\dot v + h = \tau$, and $M$ and $h$ come from other functions than `rnea`.
+# Never believe one program alone. **First**, a different way in the same package, on a motion drawn at random:
+# `tw.newton_euler_3d` knows no six-dimensional vectors. It applies Newton and Euler to each body, in three dimensions.
 # %% [markdown] lang="zh"
 # ## 答案对吗?
 #
-# 不要只相信一个程序的答案。**第一**,在同一个包里换一种算法:运动方程是 $M\,\dot v + h = \tau$,
-# 而 $M$ 和 $h$ 来自 `rnea` 以外的函数。
+# 不要只相信一个程序的答案。**第一**,在同一个包里换一种算法,运动随机抽取:`tw.newton_euler_3d` 完全不用六维向量,
+# 只在三维空间里对每个刚体用牛顿方程和欧拉方程。
 # %%
 rng = np.random.default_rng(0)
 v, a = rng.standard_normal((2, model.nv))
 tau = tw.rnea(model, q, v, a)
-M, h = tw.crba(model, q), tw.nonlinear_effects(model, q, v)
-error = np.abs(M @ a + h - tau).max()
+error = np.abs(tw.newton_euler_3d.inverse_dynamics(model, q, v, a) - tau).max()
 assert error < 1e-12 * np.abs(tau).max()
 print(f"largest difference {error:.1e} N m, of forces up to {np.abs(tau).max():.0f}")
 # %% [markdown] lang="en"
@@ -127,14 +114,16 @@ else:
 # %% [markdown] lang="en"
 # ## One more picture
 #
-# The mass matrix couples the accelerations of the degrees of freedom. A front leg is not coupled with a rear leg; these
-# squares are white. The trunk is coupled with all legs; see the first six rows and columns.
+# A joint accelerates. Which other joints need a force, only to stay as they are? The mass matrix says it, a column for
+# each joint; white is zero. Which legs are coupled with each other, and what is coupled with all of them? Notebook 49.8
+# says why.
 # %% [markdown] lang="zh"
 # ## 再看一张图
 #
-# 质量矩阵表示各自由度的加速度如何耦合。前腿与后腿没有耦合:白色的方块。躯干与每一条腿都有耦合:
-# 前六行和前六列。
+# 一个关节加速时,还有哪些关节必须出力才能保持不动?质量矩阵的每一列回答一个关节,白色是零。哪些腿彼此耦合?
+# 什么与所有的腿都耦合?为什么,见笔记本 49.8。
 # %%
+M = tw.crba(model, q)
 legs = [(f"{foot[:2]}", model.v_slice[model.joint_id(f"{foot[:2]}_hip_joint")].start) for foot in model.feet]
 starts = [start for _, start in legs]
 ax = plot.matrix(M, "mass matrix of Go2", lines=[3, *starts])

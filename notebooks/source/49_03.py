@@ -295,14 +295,14 @@ tw.ask("49.3-transpose", ...)
 # $$X^* = X^{-T} = \begin{pmatrix} R & [\boldsymbol p]_\times R \\ 0 & R \end{pmatrix}.$$
 #
 # "对偶就是转置",于是有人写成 $X^T$。下面用地面对脚的力(向上 40 N)把三个候选都试一遍,这里 $B$ 取在脚上。
-# %%
+# %% setup="yes"
 foot = tw.frame_placement(model, q, "FR_foot")
 T_AF = base.inverse() @ foot
 X, X_star = T_AF.motion_transform(), T_AF.force_transform()
 force = np.array([0, 0, 40.0])  # in the base's axes, which are the world's here
 F_foot = np.concatenate([np.zeros(3), T_AF.rotation.T @ force])
 by_hand = np.concatenate([np.cross(T_AF.translation, force), force])  # moment about the base: lever × force
-
+# %%
 for name, matrix in {"X*": X_star, "Xᵀ": X.T, "X": X}.items():
     F_base = matrix @ F_foot
     print(f"{name:3} moment {F_base[:3].round(2) + 0.0} N m, force {F_base[3:].round(2) + 0.0} N")

@@ -26,7 +26,7 @@ from twistwrench.algorithms.rnea import newton_euler
 from twistwrench.exercises.wrong import faulty
 from twistwrench.model import columns, tree_terms, wrenches
 
-np.set_printoptions(precision=3, suppress=True)
+np.set_printoptions(formatter={"float_kind": lambda x: f"{round(x, 3) + 0:7.4g}"})
 v, a = np.zeros((2, model.nv))
 v[2], v[3], a[3] = 0.6, 0.8, 2.0  # the base turns left at 0.6 rad/s, walks at 0.8 m/s, and speeds up
 for leg, sign in {"FL": 1, "FR": -0.4, "RL": -0.4, "RR": 1}.items():  # two legs swing, two go back
@@ -228,10 +228,27 @@ difference = np.abs(forces_of_motion(model, q, v, a) - tau).max()
 print(f"yours against tw.rnea: {difference:.0e} of {np.abs(tau).max():.0f} N")
 assert difference < 1e-12 * np.abs(tau).max()
 # %% [markdown] lang="en"
+# ### Fixed and floating
+#
+# The arm hangs on a wall, Go2 on nothing. The lines are the same, and only the last wrench has another fate. For the arm it
+# is row 0 of `F`: the wall supplies it, and it is no part of the answer. For Go2 it is the wrench through joint 1, the free
+# joint between the world and the base. That joint has six axes and no motor, so $S_1^T\boldsymbol F_1$ is all of
+# $\boldsymbol F_1$: the first six numbers of the answer, which somebody outside must supply.
+# %% [markdown] lang="zh"
+# ### 固定基座与浮动基座
+#
+# 手臂挂在墙上,Go2 什么也没挂。代码一样,不同的只是最后那个 wrench 的去处。对手臂,它是 `F` 的第 0 行,由墙提供,不在答案里。
+# 对 Go2,它经过关节 1,即世界与基座之间的自由关节。这个关节有六个轴、没有电机,所以 $S_1^T\boldsymbol F_1$ 就是整个
+# $\boldsymbol F_1$:答案的前六个数,要由外界提供。
+# %%
+print(len(torques), "numbers for the arm,", len(tau), "for Go2")
+print("base: moment", tau[:3], "N m, force", tau[3:6], "N")
+# %% [markdown] lang="en"
 # So it stands in the package, with external wrenches, rotors, and vectors as columns, for batches and any number type. On
 # the site, with its numbers: [RNEA, line by line](../algorithms/rnea.md).
 # %% [markdown] lang="zh"
-# 程序包里就是这样写的,另外加上外力和转子惯量;向量写成列,所以批量的状态和任何数值类型都用同样的几行代码。本站上可以带着数值[逐行读 RNEA](../algorithms/rnea.md)。
+# 程序包里就是这样写的,另外加上外力和转子惯量;向量写成列,所以批量的状态和任何数值类型都用同样的几行代码。
+# 网站上有一页可以带着数值读:[逐行读 RNEA](../algorithms/rnea.md)。
 # %%
 print(inspect.getsource(newton_euler))
 # %%
@@ -242,7 +259,7 @@ tw.ask("49.6-cost", ...)
 # The picture shows what is passed along the tree of Go2: each label is the quantity that passes through that joint, and the
 # width of the arrow is its size. On the site it moves: [RNEA as a film](../hands/film.md).
 # %% [markdown] lang="zh"
-# 下图是沿 Go2 的运动树传递的量:标注是经过该关节的量,箭头的粗细表示大小。本站上有会动的版本:[RNEA 电影](../hands/film.md)。
+# 下图是沿 Go2 的运动树传递的量:标注是经过该关节的量,箭头的粗细表示大小。网站上有会动的版本:[RNEA 电影](../hands/film.md)。
 # %%
 terms, kin = tw.rnea_terms(model, q, v, a), tw.forward_kinematics(model, q, v, a)
 V, A, F, own = (np.array(rows) for rows in (terms.V, terms.A, terms.F, terms.B))
@@ -269,15 +286,19 @@ for ax, amounts, (title, texts, colour, inward) in zip(axes, lengths, passes):
 plt.show()
 assert np.allclose(F[0, 3:], kin.placement[1].rotation @ F[1, 3:])  # the ground, or you, must hold the last of it
 # %% [markdown] lang="en"
-# A check without any frames: the power of all $\boldsymbol\tau$ is the rate of the energy, kinetic and potential.
+# A check without any frames: the power of all $\boldsymbol\tau$ must be the rate of the energy, kinetic and potential.
+# The energy a little later, less the energy a little before:
 # %% [markdown] lang="zh"
-# 再做一个完全不涉及坐标系的独立检查:全部 $\boldsymbol\tau$ 的功率等于能量(动能加势能)的变化率。
+# 再做一个完全不涉及坐标系的独立检查:全部 $\boldsymbol\tau$ 的功率应当等于能量(动能加势能)的变化率。
+# 稍后的能量减去稍前的能量:
 # %%
-h = 1e-100
-q_on, v_on = model.integrate(q, 1j * h * v), v + 1j * h * a  # one instant later
-energy = tw.kinetic_energy(model, q_on, v_on) + tw.potential_energy(model, q_on)
-assert np.isclose(tau @ v, energy.imag / h, rtol=1e-12)
-print(f"power {tau @ v:.2f} W")
+dt, energy = 1e-5, []
+for t in (-dt, dt):
+    q_t, v_t = model.integrate(q, t * v), v + t * a
+    energy.append(tw.kinetic_energy(model, q_t, v_t) + tw.potential_energy(model, q_t))
+rate = (energy[1] - energy[0]) / (2 * dt)
+print(f"power {tau @ v:.3f} W, rate of the energy {rate:.3f} W")
+assert np.isclose(tau @ v, rate, rtol=1e-7)
 
 
 # %% [markdown] lang="en"
@@ -441,31 +462,29 @@ assert np.allclose(tau, M @ a + Cv + g, rtol=1e-12, atol=1e-12)
 # %% [markdown] lang="en"
 # ## The pseudocode, run
 #
-# If you run it exactly as the chapter prints it, three things go wrong:
+# Lay the chapter's pseudocode beside the lines above. It differs in three places:
 #
-# 1. The backward loop *sets* `F[i] = I a + V ×* I V`. By then the children have added theirs to `F[i]`; the assignment
-#    throws that away.
-# 2. It passes on `X[i]^* * F[i]` with `X[i]` from parent to child. But $X^* = X^{-T}$ goes the same way as $X$: outward.
-#    Inward goes $X^T$.
-# 3. Its loops begin at link 1, after the base: no line adds the base's own wrench.
+# 1. `F[i] = I a + V ×* I V` stands in the loop inward; above, it stands in the loop outward.
+# 2. Inward it passes on `X[i]^* * F[i]`, with the `X[i]` that leads from parent to child; above, it is $X_i^T$.
+# 3. Its loops run from link 1, and link 0 is the base; above, they begin with the base.
 #
-# Take the first of them.
+# What does each of them spoil? Take the first.
 # %% [markdown] lang="zh"
 # ## 把伪代码运行一遍
 #
-# 完全照本章的伪代码运行,有三处错误:
+# 把本章的伪代码和上面的代码并排放在一起,有三处不同:
 #
-# 1. 反向循环里是*赋值* `F[i] = I a + V ×* I V`。这时子连杆已经把自己的加到 `F[i]` 上了,一赋值就全丢了。
-# 2. 它用 `X[i]^* * F[i]` 往回传,而 `X[i]` 是从父到子。可是 $X^* = X^{-T}$ 与 $X$ 同向:向外。向内的是 $X^T$。
-# 3. 循环从基座之后的连杆 1 开始:没有一行加上基座自己的 wrench。
+# 1. `F[i] = I a + V ×* I V` 写在反向循环里;上面是写在正向循环里的。
+# 2. 它用 `X[i]^* * F[i]` 往回传,而 `X[i]` 是从父到子的;上面用的是 $X_i^T$。
+# 3. 循环从连杆 1 开始,而基座是连杆 0;上面是从基座开始的。
 #
-# 先看第一处。
+# 每一处各弄错了什么?先看第一处。
 # %%
 tw.ask("49.6-overwritten", ...)
 # %% [markdown] lang="en"
-# Colour marks what is wrong. The calves, with no children, come out right every time.
+# Now all three, run on Go2. Colour marks what is wrong; the white squares are right. Which tests would have passed?
 # %% [markdown] lang="zh"
-# 有颜色的地方就是错的。小腿没有子连杆,每次都对。
+# 三处都在 Go2 上运行一遍。有颜色的地方是错的,白色的是对的。哪些检查会通过?
 # %%
 as_printed = {  # in the listing, what stands there and what is printed
     "1. overwritten": ("tau[i] = S", "F[i] = B[i]; tau[i] = S"),
@@ -491,11 +510,18 @@ assert np.allclose(printed[0][:6], own[1])  # the base by itself: all legs are l
 assert np.allclose(printed[2][:6], tau[:6] - own[1])  # the other way round
 assert (errors[2, 6:] == 0).all()
 # %% [markdown] lang="en"
+# The calves, with no children, come out right every time. Row 1: when the loop inward reaches a link, its children have
+# added theirs to `F[i]`, and the assignment throws that away; the base keeps only its own. Row 2: $X^* = X^{-T}$ goes the
+# way of $X$, outward; inward goes $X^T$. Row 3: no line adds the base's own wrench; the joints are all right.
+#
 # ## Pinocchio agrees
 #
 # Not only the torques: after its `rnea`, `data.f` holds the wrenches through the joints and `data.a_gf` the accelerations
 # of a rising world. (`data.a` is for `forwardKinematics` to fill: after `rnea` do not read it.)
 # %% [markdown] lang="zh"
+# 小腿没有子连杆,每次都对。第 1 行:反向循环走到一个连杆时,子连杆已经把自己的加到 `F[i]` 上了,一赋值就全丢了,基座只剩自己的。
+# 第 2 行:$X^* = X^{-T}$ 与 $X$ 同向,向外;向内的是 $X^T$。第 3 行:没有一行加上基座自己的 wrench;各关节都对。
+#
 # ## 与 Pinocchio 对照
 #
 # 不只是力矩:调用它的 `rnea` 之后,`data.f` 里是经过各关节的 wrench，`data.a_gf` 里是世界向上加速时的加速度。

@@ -179,7 +179,6 @@ def mass_matrix(
         ax.plot([k - 0.5, k - 0.5], [-0.5, model.nv - 0.5], color=COLOURS["black"], linewidth=0.8)
     _tree(model, indent, ax)
     ax.set_ylim(model.nv - 0.4, -0.6)
-    ax.set_xlabel(word("grey: in both orders; orange: in M = L Lᵀ alone"), fontsize=8)
     for side in ax.spines.values():
         side.set_visible(False)
     return ax

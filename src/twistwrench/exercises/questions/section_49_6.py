@@ -20,7 +20,7 @@ def slider() -> Facts:
 def child() -> Facts:
     """Vertical force that RNEA adds at the trunk for one leg, where the trunk of a Go2 at rest is held."""
     _, through = _hips()
-    return {"truth": through, "reaction": -through}
+    return {"truth": through, "weighs": through, "reaction": -through}
 
 
 def cost() -> Facts:
