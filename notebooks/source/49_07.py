@@ -25,7 +25,13 @@ from twistwrench import newton_euler_3d, plot
 from twistwrench.algorithms.aba import articulated_body
 from twistwrench.model import tree_terms
 
-np.set_printoptions(precision=3, suppress=True)
+try:
+    import pinocchio as pin
+except ImportError:
+    pin = None
+    print("Pinocchio is not installed (pip install pin): the comparisons below are skipped")
+
+np.set_printoptions(formatter={"float_kind": lambda x: f"{round(x, 3) + 0:7.4g}"})
 rng = np.random.default_rng(7)
 v, tau = rng.standard_normal((2, model.nv))
 rest = np.zeros(model.nv)
@@ -166,21 +172,32 @@ print(IA1.diagonal(), pA1)
 
 # %% [markdown] lang="en"
 # Rod 1 carries all of rod 2 sideways, but only a part of it upward, where the elbow gives way. With the same lines for
-# joint 1 we are at the wall, which rises with $-\boldsymbol g$. **Pass 3**, outward again, puts in the accelerations. All
-# three, for any tree:
+# joint 1 we are at the wall, which rises with $-\boldsymbol g$. **Pass 3**, outward again, puts in the accelerations.
+#
+# For any tree, one function for each pass. The first has nothing new:
 # %% [markdown] lang="zh"
 # 杆 1 沿水平方向带动整根杆 2,向上却只带动一部分,因为肘会退让。对关节 1 用同样的几行,就到了墙,墙以 $-\boldsymbol g$ 上升。
-# **第 3 遍**再次向外,代入加速度。三遍合起来,对任意的树:
+# **第 3 遍**再次向外,代入加速度。
+#
+# 对任意的树,每一遍写成一个函数。第一遍没有新东西:
 # %%
-def accelerations(model, q, v, tau):
-    t, at, qdd = tree_terms(model, q), model.v_slice, np.zeros(model.nv)
-    V, c, pA, A = np.zeros((4, model.nbodies, 6))
-    IA, U, D, u = [*t.I], {}, {}, {}
+def pass_1(t, at, v):
+    V, c, pA = np.zeros((3, len(t.I), 6))
     for i in t.outward:
         vJ = t.S[i] @ v[at[i]]
         V[i] = t.X[i] @ V[t.parent[i]] + vJ
         c[i] = tw.cross_motion(V[i]) @ vJ
         pA[i] = tw.cross_force(V[i]) @ t.I[i] @ V[i]
+    return c, pA
+
+
+# %% [markdown] lang="en"
+# The second is what you did with rod 2, for each body from the tips inward:
+# %% [markdown] lang="zh"
+# 第二遍就是上面对杆 2 做的事,从末端开始,每个刚体做一次:
+# %%
+def pass_2(t, at, tau, c, pA):
+    IA, U, D, u = [*t.I], {}, {}, {}
     for i in t.inward:
         U[i] = IA[i] @ t.S[i]
         D[i] = np.linalg.inv(t.S[i].T @ U[i])
@@ -189,12 +206,34 @@ def accelerations(model, q, v, tau):
         pa = pA[i] + Ia @ c[i] + U[i] @ D[i] @ u[i]
         IA[t.parent[i]] = IA[t.parent[i]] + t.X[i].T @ Ia @ t.X[i]
         pA[t.parent[i]] += t.X[i].T @ pa
-    A[0, 3:] = -model.gravity
+    return U, D, u
+
+
+# %% [markdown] lang="en"
+# The third begins with the world that rises, and computes $\ddot q_i$ from $\boldsymbol a'$, as derived above:
+# %% [markdown] lang="zh"
+# 第三遍从向上加速的世界开始,按上面推导的式子由 $\boldsymbol a'$ 求 $\ddot q_i$:
+# %%
+def pass_3(t, at, a_0, c, U, D, u):
+    A, qdd = np.zeros((len(t.I), 6)), np.zeros(at[-1].stop)
+    A[0, 3:] = a_0
     for i in t.outward:
         a = t.X[i] @ A[t.parent[i]] + c[i]
         qdd[at[i]] = D[i] @ (u[i] - U[i].T @ a)
         A[i] = a + t.S[i] @ qdd[at[i]]
     return qdd
+
+
+# %% [markdown] lang="en"
+# That is ABA:
+# %% [markdown] lang="zh"
+# 合起来就是 ABA:
+# %%
+def accelerations(model, q, v, tau):
+    t, at = tree_terms(model, q), model.v_slice
+    c, pA = pass_1(t, at, v)
+    U, D, u = pass_2(t, at, tau, c, pA)
+    return pass_3(t, at, -model.gravity, c, U, D, u)
 
 
 # %%
@@ -210,7 +249,7 @@ assert difference < 1e-11 * np.abs(qdd).max()
 # %% [markdown] lang="en"
 # So it stands in the package; on the site, with its numbers: [ABA, line by line](../algorithms/aba.md).
 # %% [markdown] lang="zh"
-# 程序包里就是这样写的;本站上可以带着数值[逐行读 ABA](../algorithms/aba.md)。
+# 程序包里就是这样写的;网站上有一页可以带着数值读:[逐行读 ABA](../algorithms/aba.md)。
 # %%
 print(inspect.getsource(articulated_body))
 # %% [markdown] lang="en"
@@ -289,7 +328,7 @@ tw.ask("49.7-chain", ...)
 # The picture has six such rods, bent a little. At each hinge, it shows the apparent mass that the previous rod has to
 # move, drawn as above. On the site you hold such a chain and free its joints one by one: [Felt mass](../hands/felt.md).
 # %% [markdown] lang="zh"
-# 下面是六根这样的杆,稍有弯曲:每个关节处画的是前一根杆所要带动的表观质量,画法同上。在本站上可以捏住这样一串杆,
+# 下面是六根这样的杆,稍有弯曲:每个关节处画的是前一根杆所要带动的表观质量,画法同上。在网站上可以捏住这样一串杆,
 # 逐个松开关节:[手感质量](../hands/felt.md)。
 # %%
 def through_joints(model, q):
@@ -389,17 +428,22 @@ assert (np.abs(loose[9:]) > 0.1).all()
 # %% [markdown] lang="en"
 # ## There and back
 #
-# `aba` and `rnea` are inverses of each other: two algorithms of different kinds, on a hundred random states at once.
+# `aba` goes from forces to accelerations, `rnea` back. They are algorithms of different kinds, so each tests the other: a
+# hundred random states at once.
 # %% [markdown] lang="zh"
 # ## 正逆互验
 #
-# `aba` 与 `rnea` 互为逆。两种不同的算法,一次用一百个随机状态互相检验。
+# `aba` 由力求加速度,`rnea` 由加速度求回力。两种算法完全不同,正好互相检验:一次用一百个随机状态。
 # %%
 qs = np.array([model.random_configuration(rng=rng) for _ in range(100)])
 vs, taus = rng.standard_normal((2, 100, model.nv))
-accelerations = tw.aba(model, qs, vs, taus)
-assert accelerations.shape == (100, 18)
-assert np.abs(tw.rnea(model, qs, vs, accelerations) - taus).max() < 1e-12 * np.abs(accelerations).max()
+there = tw.aba(model, qs, vs, taus)
+back = tw.rnea(model, qs, vs, there)
+print(
+    f"accelerations up to {np.abs(there).max():.0f} rad/s²; the forces come back within {np.abs(back - taus).max():.0e}"
+)
+assert there.shape == (100, 18)
+assert np.abs(back - taus).max() < 1e-12 * np.abs(there).max()
 assert np.allclose(tw.aba(model, qs, vs, tw.rnea(model, qs, vs, vs)), vs, atol=1e-10)
 
 
@@ -464,33 +508,33 @@ assert np.allclose(rate, [0, 0, 0, *(model.mass * model.gravity)], atol=1e-10)
 # %% [markdown] lang="en"
 # ## Pinocchio agrees
 #
-# In Python its `crba` already returns a symmetric matrix: the chapter's $M + M^T - \mathrm{diag}(M)$ doubles everything off
-# the diagonal. `np.linalg.solve` uses all entries: with the upper triangle alone it solves another problem.
+# Its `aba` first. Then the second way, as the chapter writes it, with $M + M^T - \mathrm{diag}(M)$. In Python its `crba`
+# has filled both triangles already, so this doubles everything off the diagonal. And `np.linalg.solve` uses all entries,
+# so with the upper triangle alone it solves another problem. How far off are the two?
 # %% [markdown] lang="zh"
 # ## 与 Pinocchio 对照
 #
-# 在 Python 里,它的 `crba` 返回的已经是对称矩阵:本章的 $M + M^T - \mathrm{diag}(M)$ 会把对角线以外
-# 全部加倍。`np.linalg.solve` 使用矩阵的全部元素:如果只填了上三角,它解的就是另一个问题。
+# 先看它的 `aba`。再看第二种算法,像本章那样先做 $M + M^T - \mathrm{diag}(M)$。在 Python 里它的 `crba` 已经填好两个三角,
+# 这样一来对角线以外全部加倍。而 `np.linalg.solve` 使用矩阵的全部元素,如果只填了上三角,它解的就是另一个问题。两者各错多少?
 # %%
-try:
-    import pinocchio as pin
-except ImportError:
-    pin = None
-    print("Pinocchio is not installed (pip install pin): this comparison is skipped")
-else:
+if pin:
     pin_model = tw.bridge.to_pinocchio_model(model)
     data = pin_model.createData()
     pin_v, pin_tau = (tw.bridge.to_pinocchio_tangent(model, x) for x in (v, tau))
     theirs = pin.aba(pin_model, data, q, pin_v, pin_tau)
+    print(
+        f"aba: {np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - qdd).max():.0e} of {np.abs(qdd).max():.0f} rad/s²"
+    )
     assert np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - qdd).max() < 1e-11 * np.abs(qdd).max()
-
+# %%
+if pin:
     M, h = pin.crba(pin_model, data, q), pin.nonLinearEffects(pin_model, data, q, pin_v)
     assert np.array_equal(M, M.T)
     assert np.allclose(np.linalg.solve(M, pin_tau - h), theirs)
     doubled = M + M.T - np.diag(M.diagonal())
-    for wrong in (doubled, np.triu(M)):
+    for name, wrong in {"doubled": doubled, "upper triangle": np.triu(M)}.items():
         off = np.abs(np.linalg.solve(wrong, pin_tau - h) - theirs).max()
-        print(f"off by {off:.0f} rad/s²")
+        print(f"{name}: off by {off:.0f} rad/s²")
         assert off > 10
 # %% [markdown] lang="en"
 # ## For engineers: a hand without mass
@@ -535,12 +579,12 @@ tw.ask("49.7-tip", ...)
 # alone does not tell how exact the result is.
 # %% [markdown] lang="zh"
 # 末端很轻时,两者都不受影响,尽管这时 $M$ 的条件数比等质量时更大:只看条件数,不能判断结果有多准。
-# %%
+# %% setup="yes"
 ratios = np.array([1e-9, 1e-6, 1e-3, 1e0, 1e3, 1e6, 1e9])
-errors, conditions = np.zeros((2, len(ratios), 5)), []
+errors, conditions = np.zeros((2, len(ratios), 3)), []
 for k, ratio in enumerate(ratios):
     rods = tw.chain(10, mass_ratio=ratio)
-    for j in range(5):
+    for j in range(3):
         state = rng.standard_normal((3, 10))
         with mpmath.workdps(50):
             truth = newton_euler_3d.forward_dynamics(rods, *map(newton_euler_3d.as_mpmath, state)).astype(float)
@@ -551,11 +595,11 @@ for k, ratio in enumerate(ratios):
             errors[way, k, j] = np.abs(answer - truth).max() / np.abs(truth).max()
     conditions.append(np.linalg.cond(M))
 by_aba, by_solving = np.median(errors, axis=-1)
-
+# %%
 ax = plot.axes_2d(size=(7, 3.8))
 ax.loglog(ratios, by_solving, "s-", color=plot.COLOURS["orange"], label="crba, then solve")
 ax.loglog(ratios, by_aba, "o-", color=plot.COLOURS["blue"], label="aba")
-ax.set(xlabel="mass of the last rod / mass of the first", ylabel="relative error of q̈", title="ten rods, five states")
+ax.set(xlabel="mass of the last rod / mass of the first", ylabel="relative error of q̈", title="ten rods, three states")
 ax.grid(alpha=0.3)
 ax.legend()
 plt.show()

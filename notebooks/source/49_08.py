@@ -23,7 +23,7 @@ from twistwrench import plot
 from twistwrench.algorithms.crba import composite_rigid_body
 from twistwrench.model import tree_terms
 
-np.set_printoptions(precision=3, suppress=True)
+np.set_printoptions(formatter={"float_kind": lambda x: f"{round(x, 3) + 0:7.4g}"})
 rng = np.random.default_rng(8)
 q = model.random_configuration(rng=rng)  # nothing is zero by accident here
 rest = np.zeros(model.nv)
@@ -34,38 +34,31 @@ rest = np.zeros(model.nv)
 #
 # The equation of motion is $\tau = M\ddot q + h$. Let the robot be at rest, switch gravity off, and require the
 # acceleration 1 of one joint and 0 of all others. The forces that this needs are one column of $M$. `rnea` can do this
-# experiment; the part of gravity is subtracted. All experiments at once:
+# experiment; the part of gravity is subtracted. Two experiments on the left front leg: the knee accelerates and the thigh
+# does not, then the other way round. Compare the torques that hold the joint which stays.
 # %% [markdown] lang="zh"
 # ## $M$ 的一列就是一次实验
 #
 # 运动方程是 $\tau = M\ddot q + h$。让机器人静止,关掉重力,要求某一个关节的加速度为 1,其余全为 0。
-# 所需的力就是 $M$ 的一列。`rnea` 可以做这个实验,再把重力的部分减掉。所有实验一起做:
-# %% [markdown] lang="en"
-# **Exercise 49.8.2.** How large is $M$ of Go2 with its floating base, and with a fixed one? And where in the larger matrix is the smaller?
-# %% [markdown] lang="zh"
-# **练习 49.8.2。** Go2 带浮动基座时 $M$ 多大,固定基座时多大?小矩阵在大矩阵的什么位置?
-# %%
-def held_mass_matrix(M):
-    """Return the mass matrix of the same robot in the same posture with its base held."""
-    return ...
-
-
-tw.exercises.check("49.8.2", held_mass_matrix)
+# 所需的力就是 $M$ 的一列。`rnea` 可以做这个实验,再把重力的部分减掉。在左前腿上做两次:先让膝加速而大腿不动,再反过来。
+# 比一比让不动的那个关节保持不动所需的力矩。
 # %%
 columns = tw.rnea(model, q, rest, np.eye(model.nv)) - tw.gravity(model, q)  # row k: the experiment with joint k
+thigh, knee = (model.v_slice[model.joint_id(f"FL_{name}_joint")].start for name in ("thigh", "calf"))
+print(f"torque at the thigh while the knee accelerates: {columns[knee, thigh]:.5f} N m")
+print(f"torque at the knee while the thigh accelerates: {columns[thigh, knee]:.5f} N m")
 M = tw.crba(model, q)
-assert M.shape == (18, 18)
 assert np.abs(columns.T - M).max() < 1e-12 * np.abs(M).max()
 assert np.array_equal(M, M.T)
 # %% [markdown] lang="en"
-# The results are symmetric: the knee acts on the hip as the hip acts on the knee. The reason is that $M$
-# is the matrix of the kinetic energy. Each body has the twist $V_i = \sum_j {}^i\!X_j S_j \dot q_j$, summed over the
+# The knee acts on the thigh as the thigh acts on the knee. That is no accident: $M$ is symmetric, because it is the matrix of
+# the kinetic energy. Each body has the twist $V_i = \sum_j {}^i\!X_j S_j \dot q_j$, summed over the
 # joints $j$ between it and the world, and so
 #
 # $$T = \tfrac12 \sum_i V_i^T I_i V_i = \tfrac12\, \dot q^T M \dot q, \qquad
 # M_{jk} = \sum_{i\ \text{outboard of}\ j\ \text{and}\ k} ({}^i\!X_j S_j)^T\, I_i\; {}^i\!X_k S_k.$$
 # %% [markdown] lang="zh"
-# 实验结果是对称的:膝对髋的作用等于髋对膝的作用。原因在于 $M$ 正是动能的系数矩阵。每个刚体的 twist 是
+# 膝对大腿的作用等于大腿对膝的作用。这不是巧合:$M$ 是对称的,因为它正是动能的系数矩阵。每个刚体的 twist 是
 # $V_i = \sum_j {}^i\!X_j S_j \dot q_j$,对它与世界之间的所有关节 $j$ 求和,于是
 #
 # $$T = \tfrac12 \sum_i V_i^T I_i V_i = \tfrac12\, \dot q^T M \dot q, \qquad
@@ -76,7 +69,7 @@ tw.ask("49.8-both", ...)
 v = rng.standard_normal(model.nv)
 twists = tw.forward_kinematics(model, q, v).twist
 energies = [inertia.kinetic_energy(V) for inertia, V in zip(model.inertia, twists)]
-print(f"kinetic energy {sum(energies):.6f} J, body by body; {v @ M @ v / 2:.6f} J with M")
+print(f"kinetic energy {sum(energies):.3f} J, body by body; {v @ M @ v / 2:.3f} J with M")
 assert np.isclose(v @ M @ v / 2, sum(energies), rtol=1e-12)
 assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
 
@@ -149,10 +142,11 @@ assert np.allclose(matrix_of_inertia(arm, bend), [[5 / 3, 1 / 3], [1 / 3, 1 / 3]
 assert np.allclose(matrix_of_inertia(arm, bend), tw.crba(arm, bend), rtol=1e-12)
 assert difference < 1e-12 * M.max()
 # %% [markdown] lang="en"
-# So it stands in the package; on the site, with its numbers: [CRBA, line by line](../algorithms/crba.md). (The chapter's pseudocode climbs with $X^*$ of an $X$ that leads outward, which is the wrong
-# way round; and it stops before link 0, which is the base, so its matrix has no base rows.)
+# So it stands in the package; on the site, with its numbers: [CRBA, line by line](../algorithms/crba.md). (The chapter's
+# pseudocode climbs with $X^*$ of an $X$ that leads outward, which is the wrong way round; and it stops before link 0, which
+# is the base, so its matrix has no base rows.)
 # %% [markdown] lang="zh"
-# 程序包里就是这样写的;本站上可以带着数值[逐行读 CRBA](../algorithms/crba.md)。(本章伪代码爬升时用的是向外的 $X$ 的 $X^*$,方向反了;
+# 程序包里就是这样写的;网站上有一页可以带着数值读:[逐行读 CRBA](../algorithms/crba.md)。(本章伪代码爬升时用的是向外的 $X$ 的 $X^*$,方向反了;
 # 而且它到 0 号连杆,也就是基座之前就停了,所以算出的矩阵没有基座行。)
 # %%
 print(inspect.getsource(composite_rigid_body))
@@ -190,22 +184,39 @@ tw.exercises.check("49.8.1", base_block)
 com = tw.unskew(terms.IC[1][:3, 3:]) / masses[1]
 assert np.allclose(M[:6, :6], terms.IC[1], rtol=1e-12, atol=1e-12)
 assert np.allclose(com, placement[1].inverse().act(tw.center_of_mass(model, q)), rtol=1e-12, atol=1e-12)
+
+
 # %% [markdown] lang="en"
 # ## Which entries are zero
 #
-# The climb from a joint visits the joints between it and the base, and no others.
+# First the size.
+#
+# **Exercise 49.8.2.** How large is $M$ of Go2 with its floating base, and with a fixed one? And where in the larger matrix is the smaller?
 # %% [markdown] lang="zh"
 # ## 哪些元素为零
 #
+# 先看有多少个元素。
+#
+# **练习 49.8.2。** Go2 带浮动基座时 $M$ 多大,固定基座时多大?小矩阵在大矩阵的什么位置?
+# %%
+def held_mass_matrix(M):
+    """Return the mass matrix of the same robot in the same posture with its base held."""
+    return ...
+
+
+tw.exercises.check("49.8.2", held_mass_matrix)
+# %% [markdown] lang="en"
+# The climb from a joint visits the joints between it and the base, and no others.
+# %% [markdown] lang="zh"
 # 从一个关节往上爬,只经过它与基座之间的关节,不经过别的。
 # %%
 tw.ask("49.8-zeros", ...)
 # %% [markdown] lang="en"
 # Here is $M$ beside the tree. The colours show the largest value that each entry took in 50 random postures; what is
-# white was zero in all of them.
+# white was zero in all of them. Why are some of the white squares dotted?
 # %% [markdown] lang="zh"
-# 下面是 $M$ 和运动树。颜色表示每个元素在 50 个随机位形中取到的最大值,白色表示在所有这些位形中都是零。
-# %%
+# 下面是 $M$ 和运动树。颜色表示每个元素在 50 个随机位形中取到的最大值,白色表示在所有这些位形中都是零。为什么有些白格里有一个点?
+# %% thumbnail="yes"
 postures = np.array([model.random_configuration(rng=rng) for _ in range(50)])
 many = tw.crba(model, postures)
 plot.mass_matrix(model, many, "mass matrix of Go2, 50 postures")
@@ -232,9 +243,10 @@ assert (~branch).sum() == 108  # a third of the 324 entries: legs are not couple
 #   两个 $[c]_\times$ 的对角线上各有三个。
 # - 让腿绕髋的 x 轴转,不需要沿 x 方向的力:又是四个零,每条腿一个。
 # %%
+assert M.shape == (18, 18)
 assert zero[:6, :6].sum() == 12
 hips = [model.v_slice[model.joint_id(f"{leg}_hip_joint")].start for leg in ("FL", "FR", "RL", "RR")]
-assert np.argwhere(zero[:6, 6:]).tolist() == [[3, hip - 6] for hip in hips]  # row 3 is the force along x
+assert np.argwhere(zero[:6, 6:]).tolist() == [[3, start - 6] for start in hips]  # row 3 is the force along x
 assert (zero & branch).sum() == 12 + 2 * 4  # the same four again in the columns
 # %% [markdown] lang="en"
 # ## Keeping the zeros

@@ -23,7 +23,7 @@ import numpy as np
 
 from twistwrench import plot
 
-np.set_printoptions(precision=3, suppress=True)
+np.set_printoptions(formatter={"float_kind": lambda x: f"{round(x, 3) + 0:7.4g}"})
 rng, rest = np.random.default_rng(9), np.zeros(model.nv)
 weight = model.mass * 9.81
 feet = np.array([tw.frame_placement(model, q, foot).translation for foot in model.feet])
@@ -50,7 +50,8 @@ walking = rest.copy()
 walking[2], walking[3] = 0.6, 0.8  # rad/s, m/s
 walking[[7, 16]], walking[[8, 17]] = -5.0, 4.0  # thighs and calves
 foot_velocity = (d.J_c @ walking).reshape(4, 3)
-print(foot_velocity)
+for name, velocity in zip(model.feet, foot_velocity):
+    print(name, velocity, "m/s")
 # %%
 figure = plt.figure(figsize=(7, 4.6), layout="constrained")
 ax = plot.robot(model, q, com=False, ax=figure.add_subplot(projection="3d"))
@@ -98,14 +99,14 @@ assert np.array_equal(np.abs(d.J_c.T[3:6]) > 0.5, np.tile(np.eye(3, dtype=bool),
 # %% [markdown] lang="en"
 # ## It holds in every state
 #
-# Everything is drawn at random. `aba` does not use $J_c$: it gets each foot force as a wrench on the calf. With the
-# acceleration that it returns, both sides agree. (The feet slide and fly. That they stay would be one more equation,
+# Is the equation right? Everything is drawn at random. `aba` does not use $J_c$: it gets each foot force as a wrench on the calf. With the
+# acceleration that it returns, both sides must agree. (The feet slide and fly. That they stay would be one more equation,
 # $J_c\ddot q + \dot J_c\dot q = 0$.)
 # %% [markdown] lang="zh"
 # ## 在任何状态下都成立
 #
-# 所有的量都随机抽取。`aba` 不知道 $J_c$:每个足端力都作为对小腿的 wrench 交给它。
-# 它算出加速度,代回去两边相等。(脚会滑动、会腾空。要求脚不动,那是另一个方程 $J_c\ddot q + \dot J_c\dot q = 0$。)
+# 方程对吗?所有的量都随机抽取。`aba` 不知道 $J_c$:每个足端力都作为对小腿的 wrench 交给它。
+# 它算出加速度,代回去两边应当相等。(脚会滑动、会腾空。要求脚不动,那是另一个方程 $J_c\ddot q + \dot J_c\dot q = 0$。)
 # %%
 some_q = model.random_configuration(rng=rng)
 some_v, some_tau, some_forces = rng.standard_normal(18), rng.standard_normal(12), 20 * rng.standard_normal((4, 3))
@@ -271,11 +272,11 @@ assert np.allclose(held.tau, tau, rtol=1e-12, atol=1e-10)
 assert np.allclose(S.T @ tau + d.J_c.T @ lam, g, rtol=1e-12, atol=1e-10)
 assert np.isclose(held.forces[:, 2].sum(), weight)
 assert np.abs(tau).max() < model.effort_limit[6:].min()
-# %%
+# %% after="49.11.3"
 ax = plot.foot_forces(model, q, held.forces)
 ax.legend(loc="upper left")
 plt.show()
-print("torques, hip thigh calf, of FL FR RL RR [N m]:", *tau.round(2).reshape(4, 3), sep="\n")
+print("torques, hip thigh calf, of FL FR RL RR [N m]:", *tau.reshape(4, 3), sep="\n")
 # %% [markdown] lang="en" after="49.11.3"
 # The dotted line drops from the centre of mass to the floor, inside the polygon between the feet. It lies 1.7 mm behind
 # the middle, so the rear feet carry a little more. So "about $mg/4$ each" is only approximately true.
@@ -308,16 +309,19 @@ plt.show()
 # ## Many ways to stand
 #
 # Twelve unknowns, six equations: six kinds of change in the forces that the base does not notice, the null space of
-# $J_{c,b}^T$. Two of them: pull the feet towards each other, or shift load from one diagonal to the other.
+# $J_{c,b}^T$. Two of them: pull the feet towards each other, or shift load from one diagonal to the other. How much of the
+# two does the base notice?
 # %% [markdown] lang="zh"
 # ## 站立的方式不止一种
 #
 # 十二个未知数,六个方程:足端力有一个六维的变化空间,基座察觉不到,它就是 $J_{c,b}^T$ 的零空间。举两个例子:
-# 把左右脚往一起拉,或者把载荷从一条对角线移到另一条。
-# %%
+# 把左右脚往一起拉,或者把载荷从一条对角线移到另一条。基座从中察觉到多少?
+# %% thumbnail="yes"
 assert np.linalg.matrix_rank(d.J_c[:, :6]) == 6  # so 12 − 6 dimensions are free
 squeeze = 15 * np.array([[0, -1, 0], [0, 1, 0], [0, -1, 0], [0, 1, 0]])  # FL, FR, RL, RR
 diagonal = 25 * np.array([[0, 0, 1], [0, 0, -1], [0, 0, -1], [0, 0, 1]])
+for change in (squeeze, diagonal):
+    print("at the base:", d.J_c[:, :6].T @ change.ravel(), "N m and N")
 
 family = {
     "least norm": held.forces,
@@ -328,16 +332,16 @@ figure = plt.figure(figsize=(13, 4.2), layout="constrained")
 for k, (name, forces) in enumerate(family.items(), start=1):
     torques = (g - d.J_c.T @ forces.ravel())[6:]
     ax = plot.foot_forces(model, q, forces, ax=figure.add_subplot(1, 3, k, projection="3d"))
-    ax.set_zlabel("")
+    ax.set(zlabel="", xticks=[-0.2, 0.2], yticks=[-0.1, 0.1], zticks=[0, 0.2])
     ax.set_title(
         f"{name}: hips up to {np.abs(torques[::3]).max():.1f} N m,\nknees up to {np.abs(torques[2::3]).max():.1f}"
     )
     assert np.allclose(d.J_c[:, :6].T @ forces.ravel(), g[:6], rtol=1e-12, atol=1e-10)  # the base stands in all three
 plt.show()
 # %% [markdown] lang="en"
-# They make no difference for the base, but they do for the motors.
+# For the base all three are the same. And for the motors?
 # %% [markdown] lang="zh"
-# 这三种力对基座没有区别,对电机却有区别。
+# 对基座来说三者没有区别。对电机呢?
 # %%
 tw.ask("49.9-least", ...)
 # %% [markdown] lang="en"
@@ -381,7 +385,7 @@ assert np.isclose(shift[standing].max(), vertical[60].min(), atol=1)  # until th
 # %% [markdown] lang="zh"
 # ## 推一下
 #
-# 有人向左推躯干,最大 100 N,而机器人要保持静止。(在本站上可以自己动手推:[四只脚与一次推力](../hands/feet.md)。)
+# 有人向左推躯干,最大 100 N,而机器人要保持静止。(在网站上可以自己动手推:[四只脚与一次推力](../hands/feet.md)。)
 # %%
 tips = tw.ask("49.9-tipping", ...)
 tips
@@ -412,6 +416,7 @@ figure = plt.figure(figsize=(13.5, 4), layout="constrained")
 spatial, above, chart = figure.add_subplot(131, projection="3d"), figure.add_subplot(132), figure.add_subplot(133)
 plot.foot_forces(model, q, loads[30], ax=spatial)
 plot.arrows(q[:3] - [0, 0.24, 0], [0, 60, 0], scale=0.004, colour=plot.COLOURS["blue"], label="push: 60 N", ax=spatial)
+spatial.set(xticks=[-0.2, 0.2], yticks=[-0.1, 0.1], zticks=[0, 0.2])
 spatial.view_init(elev=15, azim=-25)
 spatial.legend(loc="upper left", fontsize=8)
 
@@ -493,6 +498,7 @@ ax = plot.axes_2d(size=(6, 3.2))
 ax.semilogy(np.rad2deg(bend[:-1]), of_leg[:-1], color=plot.COLOURS["vermilion"], label="one leg by itself")
 ax.semilogy(np.rad2deg(bend), of_all, color=plot.COLOURS["blue"], label="J_c: four feet and a free base")
 ax.set(xlabel="bend of the knees [°]", ylabel="smallest singular value", title="stretching the legs", ylim=(1e-3, 1))
+ax.set_yticks([0.001, 0.01, 0.1, 1], ["0.001", "0.01", "0.1", "1"])
 ax.invert_xaxis()
 ax.legend()
 plt.show()
@@ -511,7 +517,7 @@ tw.ask("49.9-upright", ...)
 upright = stretched[-1].copy()
 upright[7::3] = np.array([-1, 1, -1, 1]) * np.arctan2(0.0955, 0.426)  # hips, rad: width and length of a leg
 of_upright = np.linalg.svd(tw.contact_jacobian(model, upright, model.feet))[1]
-print(f"smallest singular value {of_upright.min():.1e}, the next {of_upright[-2]:.2f}")
+print(f"smallest singular value {of_upright.min():.4f}, the next {of_upright[-2]:.4f}")
 assert of_upright.min() < 1e-12 < 1e-2 < of_upright[-2]
 # %% [markdown] lang="en"
 # And contacts on the same link?
