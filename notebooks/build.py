@@ -266,7 +266,9 @@ def build(source: Path, language: str) -> str:
             for code, folded in unfolded(cell.source):
                 stands = [THUMBNAIL] if THUMBNAIL in cell.metadata and "plt.show()" in code else []
                 code = in_chinese(code, own) if language == "zh" else code
-                metadata = {**FOLDED, "tags": [*FOLDED["tags"], *stands]} if folded else {"tags": stands} if stands else {}
+                metadata = (
+                    {**FOLDED, "tags": [*FOLDED["tags"], *stands]} if folded else {"tags": stands} if stands else {}
+                )
                 notebook.cells.append(nbformat.v4.new_code_cell(code, metadata=metadata))
         elif cell.metadata["lang"] == language:
             text = chinese(cell.source) if language == "zh" else cell.source

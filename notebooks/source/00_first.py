@@ -34,11 +34,12 @@ print("base position", q[:3].round(3), " quaternion x, y, z, w", q[3:7])
 print("front left leg: hip, thigh, calf", q[7:10], "rad")
 # %% [markdown] lang="en"
 # The first cell says `nq = 19`, `nv = 18`: a posture takes one number more than a velocity. Why? That is exercise 49.1.1.
-# Which number a library writes first is another matter. On the site you can paste the state of one library, and read it
-# as another one writes it: [Translate my numbers](../hands/translate.md).
+# Which number a library writes first is another matter. On the site that belongs to this package (`python docs/build.py`
+# builds it) you can paste the state of one library, and read it as another one writes it:
+# [Translate my numbers](../hands/translate.md).
 # %% [markdown] lang="zh"
 # 第一个单元格里写着 `nq = 19`、`nv = 18`:位形比速度多一个数。为什么?这是练习 49.1.1 的问题。
-# 各个库先写哪个数,又各不相同。在网站上可以粘贴一个库的状态,看另一个库怎样写:[换算我的数](../hands/translate.md)。
+# 各个库先写哪个数,又各不相同。在本包的配套网站上(用 `python docs/build.py` 生成)可以粘贴一个库的状态,看另一个库怎样写:[换算我的数](../hands/translate.md)。
 # %% [markdown] lang="en"
 # ## What holds it up?
 #

@@ -256,7 +256,7 @@ plt.show()
 # 少一项会错多少?下面以右前腿的小腿为例,运动是随机抽取的。Go2 没有移动关节,所以第三项是零。
 # %%
 tw.ask("49.1-negligible", ...)
-# %%
+# %% setup="yes"
 rng = np.random.default_rng(1)
 v, a = 3 * rng.standard_normal((2, model.nv))
 calf = model.joint_id("FR_calf_joint")
@@ -267,7 +267,7 @@ r = tw.frame_placement(model, q, "FR_foot").translation - at.translation
 I = at.rotation @ model.inertia[calf].inertia_at_com @ at.rotation.T
 relative = v[model.v_slice[calf]] * at.rotation[:, 1]  # the calf turns about its y axis
 carrier = w - relative
-
+# %%
 shares = {
     "1  v of the foot": (np.cross(w, r), moving.velocity[calf]),
     "2  a of the foot": (np.cross(alpha, r) + np.cross(w, np.cross(w, r)), moving.acceleration[calf]),
@@ -454,7 +454,7 @@ for order, quaternion in {"x, y, z, w": [s, 0, 0, s], "w, x, y, z": [s, s, 0, 0]
 # ### 会更快吗?
 #
 # "递推"两个字并不能证明更快。请在你自己的机器上测一下,再数一数源代码里的叉乘:
-# %%
+# %% setup="yes"
 import ast
 import inspect
 import timeit
@@ -463,8 +463,6 @@ ways = {
     "3-D": lambda: newton_euler_3d.inverse_dynamics(model, q, v, a),
     "6-D": lambda: tw.rnea(model, q, v, a),
 }
-for name, way in ways.items():
-    print(f"{name}: {1e3 * min(timeit.repeat(way, number=5, repeat=5)) / 5:.2f} ms for the inverse dynamics of Go2")
 
 
 def cross_products(*modules):
@@ -473,6 +471,10 @@ def cross_products(*modules):
     return sum("cross" in ast.unparse(call.func) for call in calls)
 
 
+# %%
+for name, way in ways.items():
+    print(f"{name}: {1e3 * min(timeit.repeat(way, number=5, repeat=5)) / 5:.2f} ms for the inverse dynamics of Go2")
+# %%
 spread = cross_products(newton_euler_3d.bodies, newton_euler_3d.forces)
 gathered = cross_products(inspect.getmodule(tw.rnea))
 print(f"cross products in the source: {spread} with 3-D vectors, {gathered} with 6-D vectors")

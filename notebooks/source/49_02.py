@@ -206,7 +206,7 @@ foot = tw.frame_placement(model, q, "FR_foot").translation
 assert np.allclose(plot.point_velocity(spatial, centre), 0, atol=1e-15)
 for name in ("base", "FR_foot", "RL_calf"):
     assert np.allclose(tw.frame_jacobian(model, q, name, "world") @ v, spatial, atol=1e-15)
-# %%
+# %% thumbnail="yes"
 ax = plot.axes_2d(size=(7, 7.6))
 grid = np.stack(np.meshgrid(np.arange(-0.6, 2.3, 0.3), np.arange(-0.6, 2.3, 0.3)), axis=-1).reshape(-1, 2)
 field = plot.point_velocity(spatial, np.pad(grid, [(0, 0), (0, 1)]))  # of points on the floor
@@ -460,6 +460,7 @@ assert np.array_equal(tw.bridge.from_pinocchio_tangent(model, forward)[:6], [0, 
 taken_as_ours = tw.forward_kinematics(model, q, forward).twist[1]
 print("read in our order, it rolls:", taken_as_ours)
 assert np.array_equal(taken_as_ours[:3], [1, 0, 0])
+# %%
 try:
     import pinocchio as pin
 except ImportError:

@@ -195,7 +195,7 @@ assert np.isclose(tw.screw(line + np.concatenate([np.zeros(3), 0.2 * d])).pitch,
 #
 # 左边是从 Go2 右前小腿到基座的 $X$,右边是变换 wrench 的 $X^*$,后者是这个笔记本后半部分的主题。白色表示恰好为零。
 # 块是一样的,只是耦合块换了一个角,因为对 wrench 来说,依赖参考点的是角分量。
-# %%
+# %% thumbnail="yes"
 X_star = T_AB.force_transform()
 figure, axes = plt.subplots(1, 2, figsize=(10, 5), layout="constrained")
 moment_force = ("τx", "τy", "τz", "fx", "fy", "fz")
@@ -452,18 +452,18 @@ plt.show()
 # %% [markdown] lang="en"
 # ### Pinocchio
 #
-# `SE3.action` is $X$ in the order $(\boldsymbol v, \boldsymbol\omega)$: there $[\boldsymbol p]_\times R$ stands at the
-# *top right*. The chapter's listing looks for it at the bottom left and would stop with an AssertionError.
-# `SE3.dualAction` is $X^*$.
+# `SE3.action` is $X$ in the order $(\boldsymbol v, \boldsymbol\omega)$, and `SE3.dualAction` is $X^*$. The chapter's
+# listing looks for $[\boldsymbol p]_\times R$ at the bottom left of `action`. Where do you find it?
 # %% [markdown] lang="zh"
 # ### 与 Pinocchio 对照
 #
-# `SE3.action` 是按 $(\boldsymbol v, \boldsymbol\omega)$ 排列的 $X$:其中 $[\boldsymbol p]_\times R$ 在*右上角*。
-# 本章的代码到左下角去找它,一运行就会 AssertionError。`SE3.dualAction` 是 $X^*$。
+# `SE3.action` 是按 $(\boldsymbol v, \boldsymbol\omega)$ 排列的 $X$，`SE3.dualAction` 是 $X^*$。
+# 本章的代码到 `action` 的左下角去找 $[\boldsymbol p]_\times R$。你在哪里找到它?
 # %%
 try:
     import pinocchio as pin
 except ImportError:
+    pin = None
     print("Pinocchio is not installed (pip install pin): this comparison is skipped")
 else:
     pin_model = tw.bridge.to_pinocchio_model(model)
@@ -473,7 +473,8 @@ else:
     X_world, X_star_world = calf.motion_transform(), calf.force_transform()
     assert np.allclose(tw.bridge.from_pinocchio_transform(oMi.action), X_world, atol=1e-12)
     assert np.allclose(tw.bridge.from_pinocchio_transform(oMi.dualAction), X_star_world, atol=1e-12)
-
+# %%
+if pin:
     coupling = pin.skew(oMi.translation) @ oMi.rotation
     assert np.allclose(oMi.action[:3, 3:], coupling)
     assert not oMi.action[3:, :3].any()  # where the chapter expects it

@@ -371,7 +371,7 @@ assert np.allclose(point[:2], stance.mean(axis=0)[:2])
 assert np.isclose(pitch * magnitude, np.cross(stance[0] - stance[1], push[0])[2])  # what is left of them is a moment
 about_axis = trot.moment - np.cross(point, trot.force)
 assert np.allclose(about_axis, pitch * trot.force)  # about its axis, and only there, the moment is along the force
-# %%
+# %% thumbnail="yes"
 ax = plot.robot(model, q)
 for k, place in enumerate(stance):
     plot.friction_cone(place, mu, height=0.14, label=None if k else "friction cone", ax=ax)
@@ -571,6 +571,7 @@ assert twisting[2] > 10 * mu * twisting[5] * reach
 try:
     import pinocchio as pin
 except ImportError:
+    pin = None
     print("Pinocchio is not installed (pip install pin): this comparison is skipped")
 else:
     T = tw.bridge.to_pinocchio_se3(base)
@@ -580,8 +581,11 @@ else:
     assert np.abs(tw.bridge.from_pinocchio_force(T.act(force)) - ours).max() < 1e-12 * np.abs(ours).max()
     assert np.isclose(T.act(motion).dot(T.act(force)), tw.power(F, V), rtol=1e-13)
 
+# %%
+if pin:
     pin_model = tw.bridge.to_pinocchio_model(model)
-    theirs = pin.rnea(pin_model, pin_model.createData(), q, rest, rest, tw.bridge.to_pinocchio_f_ext(model, f_ext))
+    wrenches = tw.bridge.to_pinocchio_f_ext(model, f_ext)
+    theirs = pin.rnea(pin_model, pin_model.createData(), q, rest, rest, wrenches)
     ours = tw.rnea(model, q, rest, rest, f_ext)
     assert np.abs(tw.bridge.from_pinocchio_tangent(model, theirs) - ours).max() < 1e-12 * np.abs(lam).max()
     print("torques of a leg that stands", ours[6:9].round(3), "N m, in both")

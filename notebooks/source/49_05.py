@@ -194,7 +194,7 @@ for I_i, T in zip(model.inertia[1:], in_base[1:]):
     summed += np.linalg.inv(X).T @ I_i.matrix() @ np.linalg.inv(X)
 assert np.allclose(locked.matrix(), summed, atol=1e-12)
 assert np.isclose(locked.mass, 16.085)
-# %%
+# %% thumbnail="yes"
 figure = plt.figure(figsize=(12, 4.6), layout="constrained")
 for k in range(2):
     ax = figure.add_subplot(1, 2, k + 1, projection="3d")

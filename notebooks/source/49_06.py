@@ -171,7 +171,7 @@ for i in (2, 1):
     torques[i - 1] = (S[i].T @ F[i]).item()
     F[i - 1] += X[i].T @ F[i]
 print(F, torques, sep="\n")
-# %%
+# %% thumbnail="yes"
 figure, axes = plt.subplots(1, 2, figsize=(9, 4.2), layout="constrained")
 for ax, title in zip(axes, ("outward: what moves", "inward: what is passed on")):
     plot.side_view(arm, bend, com=False, ax=ax).set(title=title, xlim=(-0.8, 1.3), ylim=(-1.4, 0.9))

@@ -126,7 +126,9 @@ plt.show()
 # 每个模板用自己知道的那几个数预测 $\dot h_G$;完整模型的 $\dot h_G$ 取自 RNEA 的基座行。漏掉的部分相对于体重(力矩除以回转半径,当作力)如下:
 # %%
 moves = {
-    (model.name, name): (model, make(model)) for model in (go2, humanoid) for name, make in motions.MOTIONS.items()
+    (model.name, name): (model, make(model, samples=80))
+    for model in (go2, humanoid)
+    for name, make in motions.MOTIONS.items()
 }
 missed = {}
 print(f"{'root mean square':18}" + "".join(f"{name:>13}" for name in TEMPLATES))
@@ -134,7 +136,7 @@ for key, (model, m) in moves.items():
     for name, template in TEMPLATES.items():
         relative = template.of(model, model.standing()).residual(m.q, m.v, m.a).relative
         missed[*key, name] = np.sqrt((relative**2).mean())
-    print(f"{key[0]:9} {key[1]:8}" + "".join(f"{missed[*key, name]:13.2g}" for name in TEMPLATES))
+    print(f"{key[0]:9} {key[1]:8}" + "".join(f"{round(missed[*key, name], 12):13.2g}" for name in TEMPLATES))
 
 assert max(missed[*key, "centroidal"] for key in moves) < 1e-14  # exact, whatever moves
 assert missed["go2", "walk", "lipm"] < 0.03 < 0.3 < missed["go2", "trot", "lipm"]

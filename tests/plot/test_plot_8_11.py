@@ -102,6 +102,7 @@ def test_a_mass_matrix_shows_the_largest_of_each_entry_with_its_sign(flat):
     signed = np.where(many.max(axis=0) == largest, 1, -1)
     shown = largest > 1e-12
     np.testing.assert_array_equal(np.sign(shade.filled(0))[shown], signed[shown])
+    assert "full colour" in flat.get_xlabel()  # what the colours mean, and nothing of orders of elimination
 
 
 def test_dots_mark_the_zeros_that_the_tree_does_not_explain(flat):

@@ -308,6 +308,48 @@ def test_no_mark_of_a_chinese_notebook_is_as_narrow_as_in_english(source):
     assert [text[max(0, k.start() - 12) : k.end() + 12] for text in words for k in re.finditer("[,;:?!()]", text)] == []
 
 
+# ---------------------------------------------------------------- links
+
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+
+
+@pytest.mark.parametrize("language", build.LANGUAGES)
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_a_link_of_a_notebook_leads_somewhere_in_the_repository(source, language):
+    links = [link for text in texts(source, language) for link in LINK.findall(text)]
+    here = build.target(source, language).parent
+    assert [link for link in links if "://" not in link and not (here / link.split("#")[0]).exists()] == []
+
+
+@pytest.mark.parametrize("language", build.LANGUAGES)
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_a_page_that_only_the_site_has_is_called_by_name_and_the_site_links_it(source, language, monkeypatch):
+    monkeypatch.syspath_prepend(FOLDER.parent / "docs")
+    from website import beside, hands, notebooks
+
+    pages = {f"../hands/{name}.md" for name in hands.names()} | {f"../algorithms/{name}.md" for name in beside.names()}
+    own = [cell.source for cell in build.cells(source) if cell.metadata.get("lang") == language]
+    expected = [found[0] for text in own for found in build.SITE_PAGE.finditer(text)]
+    linked = notebooks.linked(notebook(source, language))
+    found = [link for cell in linked.cells for link in LINK.findall(cell.source) if "://" not in link]
+    assert len(found) == len(expected)
+    assert set(found) <= pages
+
+
+def test_a_name_stands_where_a_notebook_cannot_link():
+    text, links = build.without_site("See [exp against 1 + [V] t](../hands/exponential.md), [here](x.md).", "en")
+    assert text == "See *exp against 1 + [V] t*, [here](x.md)."
+    assert links == {"*exp against 1 + [V] t*": "[exp against 1 + [V] t](../hands/exponential.md)"}
+
+
+@pytest.mark.parametrize("language", build.LANGUAGES)
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_at_most_one_cell_that_draws_stands_for_the_notebook(source, language):
+    marked = [cell for cell in notebook(source, language).cells if build.THUMBNAIL in cell.metadata.get("tags", ())]
+    assert len(marked) == sum("thumbnail" in cell.metadata for cell in build.cells(source)) <= 1
+    assert all("plt.show()" in cell.source for cell in marked)
+
+
 # ---------------------------------------------------------------- what is in them
 
 

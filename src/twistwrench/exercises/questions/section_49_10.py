@@ -31,7 +31,7 @@ def standing() -> Facts:
 def cat() -> Facts:
     """Angle in degrees by which the trunk has turned when Go2, in the air without momentum, has circled its hips."""
     model = tw.load("go2")
-    q, steps = model.standing(), 60
+    q, steps = model.standing(), 24
     start = q.copy()
     hips, thighs = [0, 3, 6, 9], [1, 4, 7, 10]
     for k in range(steps):
