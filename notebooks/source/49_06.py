@@ -230,14 +230,14 @@ assert difference < 1e-12 * np.abs(tau).max()
 # %% [markdown] lang="en"
 # ### Fixed and floating
 #
-# The arm hangs on a wall, Go2 on nothing. The lines are the same, and only the last wrench has another fate. For the arm it
+# The arm is bolted to a wall, Go2 to nothing. The lines are the same; the question is who supplies the last wrench. For the arm it
 # is row 0 of `F`: the wall supplies it, and it is no part of the answer. For Go2 it is the wrench through joint 1, the free
 # joint between the world and the base. That joint has six axes and no motor, so $S_1^T\boldsymbol F_1$ is all of
 # $\boldsymbol F_1$: the first six numbers of the answer, which somebody outside must supply.
 # %% [markdown] lang="zh"
 # ### 固定基座与浮动基座
 #
-# 手臂挂在墙上,Go2 什么也没挂。代码一样,不同的只是最后那个 wrench 的去处。对手臂,它是 `F` 的第 0 行,由墙提供,不在答案里。
+# 手臂固定在墙上,Go2 没有固定在任何东西上。代码一样,不同的只是最后那个 wrench 由谁提供。对手臂,它是 `F` 的第 0 行,由墙提供,不在答案里。
 # 对 Go2,它经过关节 1,即世界与基座之间的自由关节。这个关节有六个轴、没有电机,所以 $S_1^T\boldsymbol F_1$ 就是整个
 # $\boldsymbol F_1$:答案的前六个数,要由外界提供。
 # %%

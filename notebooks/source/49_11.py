@@ -59,7 +59,7 @@ def compare(name, ours, theirs):
 # ## 对照表
 #
 # 下面每一行是一个量:名字、本包的写法、Pinocchio 的写法。`P` 是同一台机器人在 Pinocchio 里的模型,`data` 是它存放结果的地方。
-# 它的向量线分量在前,所以我们的向量交给它时要过桥,它的结果拿回来时也要过桥:
+# 它的向量线分量在前,所以我们的向量交给它之前、它的结果拿回来之后,都要用 `tw.bridge` 换序:
 # %%
 if pin:
     P = tw.bridge.to_pinocchio_model(model)
@@ -69,7 +69,7 @@ if pin:
 # First what has a number for each of the eighteen velocities: $\tau = M\dot v + h$, its inverse, and the two parts of it
 # that RNEA also gives. The way back is `tw.bridge.from_pinocchio_tangent`.
 # %% [markdown] lang="zh"
-# 先看十八个速度各对应一个数的量:$\tau = M\dot v + h$,它的逆,以及 RNEA 也能给出的两部分。往回走的桥是 `tw.bridge.from_pinocchio_tangent`。
+# 先看十八个速度各对应一个数的量:$\tau = M\dot v + h$,它的逆,以及 RNEA 也能给出的两部分。把结果换回来的是 `tw.bridge.from_pinocchio_tangent`。
 # %%
 if pin:
     tangent = partial(tw.bridge.from_pinocchio_tangent, model)
@@ -80,7 +80,7 @@ if pin:
 # %% [markdown] lang="en"
 # Matrices with such rows and columns:
 # %% [markdown] lang="zh"
-# 行和列都如此的矩阵:
+# 行和列都这样编号的矩阵:
 # %%
 if pin:
     matrix = partial(tw.bridge.from_pinocchio_matrix, model)
@@ -195,7 +195,7 @@ tw.exercises.check("49.11.4", map_from_pinocchio)
 # Its rows are those of a momentum, its columns those of a velocity: both have a half to exchange, the columns only in the
 # first six. The bridge does the same:
 # %% [markdown] lang="zh" after="49.11.4"
-# 它的行对应动量,列对应速度:两者都要换,但列只换前六个。桥做的是同一件事:
+# 它的行对应动量,列对应速度:两者都要换,但列只换前六个。`tw.bridge` 做的是同一件事:
 # %% after="49.11.4"
 if pin:
     compare("A_G", tw.centroidal_map(model, q), jacobian(model, pin.computeCentroidalMap(P, data, q)))
@@ -221,7 +221,7 @@ print(f"test 1: {np.abs(test_1).max():.12f}   test 2: {np.abs(test_2).max():.12f
 # (49.3). Both are built from blocks, the angular one first.
 # %% [markdown] lang="zh"
 # 测试 3:由质量、质心和惯量构造 $\hat I$(49.5)。测试 4:由 $R$ 和 $\boldsymbol p$ 构造 $\mathrm{Ad}_T$(49.3)。
-# 两者都由分块拼成,角的块在前。
+# 两者都用分块拼成,角分量的块在前。
 # %%
 m, c, I_c = model.inertia[i].mass, tw.skew(model.inertia[i].com), model.inertia[i].inertia_at_com
 T = tw.forward_kinematics(model, q).placement[i]
@@ -285,7 +285,7 @@ tw.exercises.check("49.11.1", com_velocity)
 # | 测试 | 原文 | 正确 |
 # |---|---|---|
 # | 1、2 | $M + M^T - \mathrm{diag}(M)$ | `pin.crba` 返回的矩阵已经对称 |
-# | 3 | 角的块在左上 | 线的块在左上,右上是 $-m[c]_\times$ |
+# | 3 | 角分量的块在左上 | 线分量的块在左上,右上是 $-m[c]_\times$ |
 # | 4 | $[p]_\times R$ 在左下 | 在右上 |
 # | 6 | `h_G[3:]` | `h_G[:3]` |
 # | 7 | `J_full[3:, :]` | `J_full[:3, :]` |
@@ -383,7 +383,7 @@ print("knees:", joint_a[2::3].round(1), "rad/s²")
 # %% [markdown] lang="en"
 # **Step 2**, the feet. The base's six rows have no torque: they determine the forces (the smallest, of many).
 # %% [markdown] lang="zh"
-# **第二步**,脚。基座的六行里没有力矩,由它们求足端力(有许多解,取最小的)。
+# **第二步**,脚。基座的六行里没有力矩,由它们求足端力(解有许多,取范数最小的)。
 # %%
 needed = d.M @ wanted + d.h
 lam = np.linalg.lstsq(d.J_c[:, :6].T, needed[:6])[0]

@@ -516,6 +516,23 @@ def test_the_extra_of_the_notebooks_brings_the_solver_that_one_of_them_asks():
     assert any(solver.startswith("daqp") for solver in extras["qp"])
 
 
+def mentions(node, name):
+    return any(isinstance(inner, ast.Name) and inner.id == name for inner in ast.walk(node))
+
+
+@pytest.mark.parametrize("source", SOURCES, ids=by_name)
+def test_without_pinocchio_a_notebook_skips_what_needs_it(source):
+    """Where it is not installed `pin` is None, or not there: only a condition, or what is called later, may name it."""
+    asked = [node for cell in code(source) for node in ast.parse(cell).body if mentions(node, "pin")]
+    later = ast.Try, ast.If, ast.FunctionDef
+    bare = [
+        ast.unparse(node) for node in asked if not isinstance(node, later) and "if pin else" not in ast.unparse(node)
+    ]
+    assert bare == []
+    tests = [ast.unparse(node.test) for node in asked if isinstance(node, ast.If)]
+    assert set(tests) <= {"pin"}
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("language", build.LANGUAGES)
 @pytest.mark.parametrize("source", SOURCES, ids=by_name)
