@@ -72,7 +72,8 @@ def figures(notebook: nbformat.NotebookNode) -> Iterator[Figure]:
         else:
             names = [_name(output.data) for output in cell.outputs if "data" in output]
             if names := [name for name in names if name]:
-                says = f"{plain(heading)}. {before}" if before else plain(heading)
+                stop = "" if plain(heading)[-1:] in {*"?!？！"} else "."
+                says = f"{plain(heading)}{stop} {before}" if before else plain(heading)
                 yield Figure(cell, heading, _shortened(says), names[0])
 
 

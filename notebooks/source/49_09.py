@@ -163,13 +163,13 @@ red, purple = plot.COLOURS["vermilion"], plot.COLOURS["purple"]
 newtons = [f"{force[2]:.1f} N" for force in forces]
 newton_metres = [f"{np.linalg.norm(moment):.1f} N m" for moment in moments]
 
-figure = plt.figure(figsize=(12, 5), layout="constrained")
+figure = plt.figure(figsize=(12, 5.4), layout="constrained")
 trunk, whole = (figure.add_subplot(1, 2, k, projection="3d") for k in (1, 2))
 trunk.plot(*at_hips[[0, 1, 3, 2, 0]].T, color=plot.COLOURS["grey"], linewidth=4)
-plot.arrows(at_hips, forces, scale=0.004, colour=red, label="force of a leg", texts=newtons, ax=trunk)
+plot.arrows(at_hips, forces, scale=0.006, colour=red, label="force of a leg", texts=newtons, ax=trunk)
 of_leg = "moment of a leg, its motor's among it"
-plot.arrows(at_hips, moments, scale=0.03, colour=purple, label=of_leg, texts=newton_metres, ax=trunk)
-plot.arrows(middle, own_weight, scale=0.004 / 3, colour=blue, label="weight, a third as long", ax=trunk)
+plot.arrows(at_hips, moments, scale=0.045, colour=purple, label=of_leg, texts=newton_metres, ax=trunk)
+plot.arrows(middle, own_weight, scale=0.006 / 3, colour=blue, label="weight, a third as long", ax=trunk)
 trunk.set_title("cut at the hips: the trunk\nI a + V ×* I V = weight + Σ (τ, f) of the legs")
 plot.robot(model, q, com=False, ax=whole)
 plot.arrows(feet, ground, scale=0.004, colour=red, label="λ, force of the ground", ax=whole)
@@ -178,6 +178,8 @@ whole.set_title("cut at the feet: the base's rows\nM_bb q̈_b + M_bj q̈_j + h_b
 for ax in (trunk, whole):
     ax.set(xlim=(-0.3, 0.3), ylim=(-0.2, 0.2), zlim=(0, 0.4), box_aspect=(0.6, 0.4, 0.4), yticks=[-0.2, 0, 0.2])
     ax.set(xticks=[-0.2, 0, 0.2], zticks=[0, 0.2, 0.4])
+trunk.set(zlim=(0.1, 0.4), box_aspect=(0.6, 0.4, 0.3))
+trunk.view_init(elev=38, azim=-55)
 trunk.legend(loc="upper left", fontsize=8)
 plt.show()
 balance = np.cross(at_hips - middle, forces).sum(axis=0) + moments.sum(axis=0)
