@@ -163,7 +163,8 @@ red, purple = plot.COLOURS["vermilion"], plot.COLOURS["purple"]
 newtons = [f"{force[2]:.1f} N" for force in forces]
 newton_metres = [f"{np.linalg.norm(moment):.1f} N m" for moment in moments]
 
-figure = plt.figure(figsize=(12, 5.4), layout="constrained")
+figure = plt.figure(figsize=(12, 5))
+figure.subplots_adjust(0, 0, 1, 0.85, wspace=0)
 trunk, whole = (figure.add_subplot(1, 2, k, projection="3d") for k in (1, 2))
 trunk.plot(*at_hips[[0, 1, 3, 2, 0]].T, color=plot.COLOURS["grey"], linewidth=4)
 plot.arrows(at_hips, forces, scale=0.006, colour=red, label="force of a leg", texts=newtons, ax=trunk)
@@ -330,7 +331,8 @@ family = {
     "feet pulled together": held.forces + squeeze,
     "more on one diagonal": held.forces + diagonal,
 }
-figure = plt.figure(figsize=(13, 4.2), layout="constrained")
+figure = plt.figure(figsize=(13, 4.2))
+figure.subplots_adjust(0, 0, 1, 0.9, wspace=0.05)
 for k, (name, forces) in enumerate(family.items(), start=1):
     torques = (g - d.J_c.T @ forces.ravel())[6:]
     ax = plot.foot_forces(model, q, forces, ax=figure.add_subplot(1, 3, k, projection="3d"))
@@ -414,7 +416,8 @@ tipping = weight * half_width / height
 print(f"the right feet are empty at {tipping:.1f} N")
 assert np.interp(tipping, pushes, loads[:, [1, 3], 2].sum(axis=1)) < 1e-9
 # %%
-figure = plt.figure(figsize=(13.5, 4), layout="constrained")
+figure = plt.figure(figsize=(13.5, 4))
+figure.subplots_adjust(0, 0.1, 1, 0.9, wspace=0.2)
 spatial, above, chart = figure.add_subplot(131, projection="3d"), figure.add_subplot(132), figure.add_subplot(133)
 plot.foot_forces(model, q, loads[30], ax=spatial)
 plot.arrows(q[:3] - [0, 0.24, 0], [0, 60, 0], scale=0.004, colour=plot.COLOURS["blue"], label="push: 60 N", ax=spatial)
