@@ -1,20 +1,35 @@
 """Scenes in which a smaller model may do: six of a practitioner and six more, with motions to choose by and others.
 
-Joints that have motors go on a course, and the rest moves as it must: without torque (`follow`).
+python benchmarks/scenes_to_choose.py            # all, some minutes, into results/, and the table of docs/scenes
+python benchmarks/scenes_to_choose.py lamp lift  # the whole tables of scenes with such names
+python benchmarks/scenes_to_choose.py --tables   # only the table of docs/scenes, from results/
+
+Joints that have motors go on a course, and the rest moves as it must: without torque (`follow`). The motions that are
+held out are faster, or go another way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import argparse
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from tables import fill, table
 
 import twistwrench as tw
 from twistwrench import motions
 from twistwrench.motions import Motion
 from twistwrench.spatial.rotation import rotation_to_quaternion
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results" / "scenes_to_choose.json"
+PAGES = {language: HERE.parent / "docs" / f"scenes{language}.md" for language in ("", ".zh-CN")}
+MARGINS = (1.0, 1.5)
+SHOWN = {"tau": (1.0, "N m"), "cop": (1e3, "mm"), "wrench": (1.0, "")}
 
 Course = Callable[[float], tuple[float, float, float]]
 
@@ -321,28 +336,131 @@ def gripper_of_coupled_fingers() -> Case:
     return Case(scene, need, [motion(0.4)], [motion(0.6)], {"fingers": ["panda_finger_*"], "wrist": ["panda_joint7"]})
 
 
-CASES: dict[str, Callable[[], Case]] = {
-    "a Go2 with a bucket that swings": bucket_on_a_go2,
-    "a humanoid that sits and waves": sitting_humanoid_that_waves,
-    "a satellite with a wrist": satellite_with_a_wrist,
-    "a humanoid on a platform": humanoid_on_a_platform,
-    "a tool in two fingers": tool_in_two_fingers,
-    "a biped in a plane": biped_in_a_plane,
-    "a cart whose pole has no motor": cart_whose_pole_has_no_motor,
-    "Talos in a lift": talos_in_a_lift,
-    "a parallelogram with one motor": parallelogram_with_one_motor,
-    "a humanoid that is pulled": humanoid_that_is_pulled,
-    "a drone with a load": drone_with_a_load,
-    "a gripper of coupled fingers": gripper_of_coupled_fingers,
+CASES: dict[str, tuple[str, str]] = {
+    "bucket_on_a_go2": ("a Go2 with a bucket that swings", "背着摆动水桶的 Go2"),
+    "sitting_humanoid_that_waves": ("a humanoid that sits and waves", "坐着挥手的人形机器人"),
+    "satellite_with_a_wrist": ("a satellite with a fast wrist", "腕关节快速转动的卫星"),
+    "humanoid_on_a_platform": ("a humanoid on a moving platform", "站在移动平台上的人形机器人"),
+    "tool_in_two_fingers": ("a tool in two fingers, a closed loop", "两指夹持工具（闭环）"),
+    "biped_in_a_plane": ("a biped in a plane", "平面内的双足机器人"),
+    "cart_whose_pole_has_no_motor": ("a cart whose pole has no motor", "摆杆没有电机的小车"),
+    "talos_in_a_lift": ("Talos in a lift", "电梯里的 Talos"),
+    "parallelogram_with_one_motor": ("a lamp on a parallelogram", "平行四边形机构上的灯"),
+    "humanoid_that_is_pulled": ("a humanoid that is pulled", "被绳子拉着的人形机器人"),
+    "drone_with_a_load": ("a drone with a load", "吊着重物的无人机"),
+    "gripper_of_coupled_fingers": ("a gripper of coupled fingers", "两指联动的夹爪"),
+}
+"""By the function that builds each: its name on both pages. The first six are those of a practitioner."""
+
+HEADS = {
+    "": ("at most", "margin", "the choice", "tells", "promised", "found", "refused"),
+    ".zh-CN": ("容许", "余量", "选中的模型", "能给出", "承诺", "实际", "不合格的"),
 }
 
-if __name__ == "__main__":
-    import sys
 
-    for make in CASES.values():
-        if len(sys.argv) > 1 and not any(x in make.__name__ for x in sys.argv[1:]):
+def choose(name: str) -> Iterator[dict[str, Any]]:
+    """Yield what is promised and found: without a margin, and with one where another model is then the choice."""
+    case: Case = globals()[name]()
+    last = ""
+    for margin in MARGINS:
+        options = {"held_out": case.unseen, "groups": case.groups, "margin": margin}
+        found = case.scene.cheapest(case.need, case.judged, **options)
+        best = found.best
+        if best.name == last:
             continue
-        case = make()
-        found = case.scene.cheapest(case.need, case.judged, held_out=case.unseen, groups=case.groups)
-        print(make.__name__)
-        print(found)
+        last = best.name
+        yield {
+            "margin": margin,
+            "choice": best.name,
+            "tells": [int(np.isin(found.motors, best.kept).sum()), len(found.motors)],
+            "allowed": dict(found.tolerance),
+            "promised": {quantity: best.worst(quantity) for quantity in found.tolerance},
+            "found": {quantity: best.worst(quantity, held_out=True) for quantity in found.tolerance},
+            "holds": found.holds,
+            "refused": refused(found),
+        }
+
+
+def refused(found: Any) -> dict[str, Any]:
+    """Return of the models with joints that do not do the one that misses least, or else tells most; none if all do."""
+    need = found.tolerance
+    some = [o for o in found.options if o.predicts_torques and not o.unfit and not o.within(need, found.margin)]
+    if not some:
+        return {}
+
+    def told(option: Any) -> int:
+        bears = np.isin(found.motors, option.kept).sum()
+        return 0 if bears == len(found.motors) and "tau" not in option.errors else int(bears)
+
+    def rank(option: Any) -> tuple[float, int]:
+        return max(option.worst(name) / most for name, most in need.items()), -told(option)
+
+    nearest = min(some, key=rank)
+    missed = {name: nearest.worst(name) for name in need if nearest.worst(name) < np.inf}
+    return {"name": nearest.name, "tells": [told(nearest), len(found.motors)], "misses": missed}
+
+
+def tables(language: str) -> dict[str, str]:
+    """Return the table of a page."""
+    found = json.loads(RESULTS.read_text(encoding="utf-8"))
+    return {"choices": table(cell for name in CASES for row in found[name] for cell in _cells(name, row, language))}
+
+
+def _cells(name: str, row: dict[str, Any], language: str) -> Iterator[tuple[str, str, str]]:
+    text = CASES[name][bool(language)]
+    line = text if row["margin"] == 1 else f"{text} "  # a line of its own
+    shown = (
+        _errors(row["allowed"]),
+        f"{row['margin']:g}",
+        row["choice"],
+        _tells(row["tells"], language) if "tau" in row["allowed"] else "ḣ_G",
+        _errors(row["promised"]),
+        _errors(row["found"]),
+        _refused(row, language),
+    )
+    for head, cell in zip(HEADS[language], shown, strict=True):
+        yield line, head, cell
+
+
+def _tells(numbers: Sequence[int], language: str) -> str:
+    """Return how many of the torques that are needed a model tells."""
+    told, motors = numbers
+    return f"{motors} 个 τ 中的 {told} 个" if language else f"τ {told} of {motors}"
+
+
+def _refused(row: dict[str, Any], language: str) -> str:
+    """Return a model that does not do, and why: its error, or how many torques it tells."""
+    other = row["refused"]
+    if not other:
+        return ""
+    less = other["tells"][0] < other["tells"][1] and "tau" in row["allowed"]
+    return f"{other['name']}: {_tells(other['tells'], language) if less else _errors(other['misses'])}"
+
+
+def _errors(errors: Mapping[str, float]) -> str:
+    """Return errors with their units; what rounding leaves is 0."""
+    some = ((error * SHOWN[name][0], SHOWN[name][1]) for name, error in errors.items())
+    return ", ".join(f"{error if error > 1e-9 else 0:.2g} {unit}".strip() for error, unit in some)
+
+
+def main() -> None:
+    """Run what is asked for."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", help="parts of names: only these are run, and their whole tables printed")
+    parser.add_argument("--tables", action="store_true", help="only the table, from results/")
+    args = parser.parse_args()
+    for name in CASES if args.names else ():
+        if any(part in name for part in args.names):
+            case = globals()[name]()
+            print(name, case.scene.cheapest(case.need, case.judged, held_out=case.unseen, groups=case.groups), sep="\n")
+    if args.names:
+        return
+    if not args.tables:
+        found = {name: list(choose(name)) for name in CASES}
+        RESULTS.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    for language, page in PAGES.items():
+        page.write_text(fill(page.read_text(encoding="utf-8"), tables(language)), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

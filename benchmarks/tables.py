@@ -196,9 +196,13 @@ def in_chinese(made: str) -> str:
 
 
 def fill(page: str, made: Mapping[str, str]) -> str:
-    """Return a page with its tables made anew, each after a line ``<!-- table: NAME -->``; in the page's language."""
+    """Return a page with these tables made anew, each after a line ``<!-- table: NAME -->``; in the page's language."""
     speak = in_chinese if re.match(rf"# .*{_HAN}", page) else str
-    return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", lambda found: f"{found[1]}{speak(made[found[2]])}\n", page)
+
+    def anew(found: re.Match[str]) -> str:
+        return f"{found[1]}{speak(made[found[2]])}\n" if found[2] in made else found[0]
+
+    return re.sub(r"(<!-- table: (\w+) -->\n)(\|.*\n)*", anew, page)
 
 
 def write(pages: Iterable[Path], made: Mapping[str, str]) -> None:

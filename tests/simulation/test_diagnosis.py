@@ -1,6 +1,7 @@
 """What began a divergence: the joint, its apparent inertia, and the longest step."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -58,6 +59,31 @@ def test_the_ankle_of_a_humanoid_is_named():
     D = 1 / np.linalg.inv(tw.crba(model, q0))[ankle, ankle]
     assert told(raised.value, "D") == pytest.approx(D, rel=0.05)
     assert told(raised.value, "D/kd") == pytest.approx(2 * D / 3, rel=0.1)
+
+
+@pytest.mark.parametrize("gain", ["kd", "kp"])
+def test_joints_that_are_stable_one_by_one_and_not_together_are_named(gain):
+    """Near rest v⁺ = (1 − dt M⁻¹ kd) v, and with springs v swings at √λ, of the largest eigenvalue."""
+    model, dt, q0 = replace(shared("planar_arm"), gravity=np.zeros(3)), 1e-3, np.array([0.3, 0.6, 0.9])
+    inverse = np.linalg.inv(tw.crba(model, q0))
+    k = 0.9 * 2 / dt / np.diag(inverse) if gain == "kd" else 0.5 * (2 / dt) ** 2 / np.diag(inverse)
+    largest = np.linalg.eigvals(inverse @ np.diag(k)).real.max()
+    longest = 2 / largest if gain == "kd" else 2 / np.sqrt(largest)
+    assert longest < dt
+
+    def moved(dt):
+        def tau(t, q, v):
+            return -k * (v if gain == "kd" else q - q0)
+
+        return tw.simulate(model, q0, [1e-6, 2e-6, -1e-6], dt=dt, steps=3000, tau=tau, method="semi-implicit")
+
+    assert np.abs(moved(0.95 * longest).v[-1]).max() < 1e-5
+    with pytest.raises(
+        tw.DivergenceError, match=f"it began with joint '.*alone it would not, but with '.*M⁻¹ {gain}"
+    ) as e:
+        moved(dt)
+    assert told(e.value, "λ") == pytest.approx(largest, rel=0.05)
+    assert told(e.value, "2/√?λ") == pytest.approx(longest, rel=0.05)
 
 
 def test_the_clock_of_a_policy_counts_and_not_the_step():

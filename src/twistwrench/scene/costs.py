@@ -200,7 +200,8 @@ class Costs:
     def _tells(self, option: Option) -> str:
         """Return what an option tells as a cell: of the torques that are needed how many, where not all."""
         told = int(np.isin(self.motors, option.kept).sum())
-        if not option.predicts_torques or not told:
+        bears = told == len(self.motors) and "tau" not in option.errors  # the load of a joint that it lacks
+        if bears or not told:
             return "ḣ_G"
         return "ḣ_G, τ" if told == len(self.motors) else f"ḣ_G, τ {told} of {len(self.motors)}"
 

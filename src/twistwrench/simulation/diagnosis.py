@@ -3,7 +3,8 @@
 A policy with the gain kd on a joint whose apparent inertia is D makes of v, over a step, v (1 − dt kd / D): beyond
 dt kd / D = 2 it changes its sign and grows. D = 1 / (M⁻¹)ⱼⱼ is what a motor feels of the robot when all other joints
 give way, and for a light foot on a heavy leg it is the foot alone. With the gain kp and no kd the same happens beyond
-dt √(kp / D) = 2.
+dt √(kp / D) = 2. Joints whose gains are small enough one by one can be too much together: v grows along the eigenvector
+of M⁻¹ kd with the largest eigenvalue λ, beyond dt λ = 2.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from ..arrays import Array
 from ..contact import constraint_jacobian
 from ..fast import crba
 from ..fast.steps import integrate
+from ..model import Model
 from .system import System
 
 __all__ = ["divergence_cause"]
@@ -29,6 +31,12 @@ MAX_SWING_RATIO = 2.0
 
 MAX_TURN_RAD = 1.0
 """rad: a body that turns further in one step is too fast for an explicit method."""
+
+LARGE_CHANGE = 0.1
+"""rad or m in a step: velocities that change by more are not those with which a divergence begins."""
+
+MIN_SHARE = 0.05
+"""Of an eigenvector's squares: a joint that has less is not named."""
 
 PROBE_SIZE = 1e-4
 """rad, m, rad/s or m/s: how far apart states are at which a policy is asked for its gains."""
@@ -49,7 +57,7 @@ def divergence_cause(system: System, method: str, t0: float, states: Sequence[tu
     size = np.abs(states[-1][1]).max(axis=-1, initial=0)
     item = tuple(int(i) for i in np.unravel_index(size.argmax(), size.shape))
     speeds = np.array([v[item] for _, v in states])
-    k, entry = onset(speeds)
+    k, entry = onset(speeds, system.dt)
     q, v = states[k]
     try:
         found = feedback_cause(system, method, t0 + k * system.dt, q, v, item)
@@ -60,18 +68,23 @@ def divergence_cause(system: System, method: str, t0: float, states: Sequence[tu
     if found is None:
         return ""
     entry, reason = found
-    joint = next(i for i, s in enumerate(system.model.v_slice) if s.start <= entry < s.stop)
-    return f"it began with joint {system.model.joint_names[joint]!r}{alternating(speeds[k:, entry])}: {reason}"
+    name = system.model.joint_names[body_of(system.model, entry)]
+    return f"it began with joint {name!r}{alternating(speeds[k:, entry])}: {reason}"
 
 
-def onset(speeds: Array) -> tuple[int, int]:
-    """Return the state after which changes of v grew until the end, and the entry that changed most there."""
+def body_of(model: Model, entry: int) -> int:
+    """Return the joint that an entry of v belongs to."""
+    return next(i for i, s in enumerate(model.v_slice) if s.start <= entry < s.stop)
+
+
+def onset(speeds: Array, dt: float) -> tuple[int, int]:
+    """Return the state after which changes of v grew or were large until the end, and the entry that changed most."""
     change = np.diff(speeds, axis=0)
     if not len(change):
         return 0, int(np.abs(speeds[0]).argmax())
     size = np.abs(change).max(axis=-1)
     k = len(size) - 1
-    while k > 0 and size[k - 1] < size[k]:
+    while k > 0 and (size[k - 1] < size[k] or dt * size[k - 1] > LARGE_CHANGE):
         k -= 1
     return k, int(np.abs(change[k]).argmax())
 
@@ -87,7 +100,8 @@ def feedback_cause(
 ) -> tuple[int, str] | None:
     """Return the entry of v whose feedback needs the shortest step, and that step; None where dt is short enough."""
     kp, kd = gains(system, t, q, v, item)
-    D = apparent_inertia(system, q[item])
+    inverse = mobility(system, q[item])
+    D = apparent_inertia(inverse)
     dt = system.dt * max(system.period, 1)
     limit = 2.0 if system.period else MAX_DAMPING_RATIO.get(method, 2.0)
     damped = dt * kd / D
@@ -104,6 +118,21 @@ def feedback_cause(
         longest = MAX_SWING_RATIO * np.sqrt(D[j] / kp[j])
         bound = f"{name} = {dt:.3g} s must be below {MAX_SWING_RATIO:.3g} √(D/kp) = {longest:.2g} s"
         return j, f"its apparent inertia is D = {D[j]:.2g}, the stiffness kp = {kp[j]:.3g} (SI units), and {bound}"
+    for what, k, power, bounded in (("kd", kd, 1.0, limit), ("kp", kp, 0.5, MAX_SWING_RATIO)):
+        root = np.sqrt(np.maximum(k, 0))
+        squares, shapes = np.linalg.eigh(root[:, None] * inverse * root)
+        rate = float(squares[-1]) ** power
+        if dt * rate > bounded and np.isfinite(limit):
+            share = shapes[:, -1] ** 2
+            j, *more = (int(i) for i in np.argsort(-share)[:3])
+            named = [system.model.joint_names[body_of(system.model, i)] for i in more if share[i] > MIN_SHARE]
+            others = " and ".join(map(repr, named)) or "others"
+            eigenvalue = f"λ = {squares[-1]:.3g} is the largest eigenvalue of M⁻¹ {what}, and {name} = {dt:.3g} s"
+            longest = f"{bounded:.3g}/{'λ' if power == 1 else '√λ'} = {bounded / rate:.2g} s"
+            return (
+                j,
+                f"alone it would not, but with {others}: {eigenvalue} must be below {longest}",
+            )
     j = int(kd.argmin())
     if kd[j] < 0 and -kd[j] / D[j] * dt > PROBE_SIZE:
         return j, f"its τ grows with its own velocity, by {-kd[j]:.3g} (SI units): a sign in the policy?"
@@ -124,12 +153,17 @@ def gains(system: System, t: float, q: Array, v: Array, item: tuple[int, ...]) -
     return kp, kd
 
 
-def apparent_inertia(system: System, q: Array) -> Array:
-    """Return D = 1 / (M⁻¹)ⱼⱼ, shape (nv,), with the contacts that stick; ∞ where these leave no motion."""
-    inverse = np.linalg.inv(crba(system.model, q).astype(np.float64))
+def mobility(system: System, q: Array) -> Array:
+    """Return M⁻¹, shape (nv, nv), with the contacts that stick."""
+    inverse: Array = np.linalg.inv(crba(system.model, q).astype(np.float64))
     if system.contacts and system.stepping is None:
         J = constraint_jacobian(system.model, q, system.contacts)
         inverse = inverse - inverse @ J.mT @ np.linalg.pinv(J @ inverse @ J.mT) @ J @ inverse
+    return inverse
+
+
+def apparent_inertia(inverse: Array) -> Array:
+    """Return D = 1 / (M⁻¹)ⱼⱼ, shape (nv,); ∞ where contacts leave no motion."""
     gives = np.diagonal(inverse)
     free = gives > 1e-9 * gives.max(initial=0)
     return np.where(free, 1 / np.where(free, gives, 1), np.inf)

@@ -118,7 +118,8 @@ def motion_error(
     made = len(whole.t) - 1
     growth = _growth(model, whole, nudged)
     size = np.abs(_points(model, whole.q[-1])).max(axis=(-2, -1)) + 1  # m
-    rounding = 1e3 * size * np.finfo(np.float64).eps * np.sqrt(made) * np.maximum(growth, 1)
+    often = made / np.maximum(1, 2 * np.log(np.maximum(growth, 1)))  # steps whose rounding has grown that much
+    rounding = 1e3 * size * np.finfo(np.float64).eps * np.sqrt(often) * np.maximum(growth, 1)
     share = 1 - 2.0 ** -METHODS[whole.method].order
     return MotionError(apart(model, whole.q[-1], half.q[-1]) / share, rounding, growth)
 

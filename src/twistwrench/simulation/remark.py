@@ -19,6 +19,7 @@ SENTENCES = {
     "alternates": "the velocity of joint {name!r} alternates and grows, soon by {value:.4g} rad/s or m/s a step: lower "
     "gains, damping of the model, or a smaller dt?",
     "coulomb": "contact {name!r} misses Coulomb's law by {value:.4g} m/s, more than {limit:.4g}: a smaller dt?",
+    "energy": "the energy of {name!r} grows by {value:.4g} J from nowhere, more than {limit:.4g}: a smaller dt?",
     "damping": "joint {name!r} has damping, here up to {value:.4g} N m or N, which only 'time-stepping' applies",
     "friction": "joint {name!r} has dry friction, {value:.4g} N m or N, which only 'time-stepping' applies",
 }
@@ -35,12 +36,13 @@ class Remark(NamedTuple):
         "pull", "slip", "tip" of a contact that sticks, "sunk" of a body below all of them; "range", "speed", "effort"
         of a joint, "alternates" of one whose velocity changes its way in each step, by more and more; "lift-off",
         "slide" of a contact on a ground, and "coulomb" where no forces were found that fulfil Coulomb's law to 1e-3 of
-        the fastest point; "damping", "friction" of a joint that moves, which only time stepping applies; the value is
+        the fastest point; "energy" where a robot on a ground has more than it had before and its motors put in, by 2 %
+        of all that moved; "damping", "friction" of a joint that moves, which only time stepping applies; the value is
         the largest that was left out.
     name : str
-        Of the frame of the contact, or the joint.
+        Of the frame of the contact, the joint, or the robot.
     value, limit : float
-        How large it was then, and what is allowed; in N, N m, rad, m, rad/s or m/s.
+        How large it was then, and what is allowed; in N, N m, J, rad, m, rad/s or m/s.
     """
 
     t: float

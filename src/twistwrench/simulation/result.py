@@ -49,6 +49,9 @@ MIN_SLIDE_M_PER_S = 1e-3
 COULOMB_RTOL = 1e-3
 """Relative to the fastest point: how far a step may miss Coulomb's law before it is said."""
 
+ENERGY_RTOL = 0.02
+"""Relative to the largest kinetic energy and what the motors moved: how much energy may come of the steps alone."""
+
 ALTERNATIONS = 8
 """So many changes of v in a row with opposite signs are no motion but gains that are too high for the step."""
 
@@ -146,7 +149,7 @@ class Simulation:
 
         A contact that sticks and pulls, would slip or tip; a body below all contacts; a joint beyond its range or its
         speed, or whose velocity alternates and grows; a motor beyond its limit; on a ground, a contact that leaves it
-        or slides; damping and friction of a joint, which only time stepping applies.
+        or slides, and energy from nowhere; damping and friction of a joint, which only time stepping applies.
         """
         system, stepping, model, (q, v, tau) = self.system, self.system.stepping, self.system.model, self.full
         clock = slice(None, None, max(system.period, 1))
@@ -155,6 +158,9 @@ class Simulation:
         if self.contact_forces and stepping is None:
             found += contact_remarks(model, self.t, q, system.contacts, self.contact_forces)
         found += neglect_remarks(model, self.t, v) if stepping is None else ground_remarks(stepping, self.t)
+        if stepping is not None and not stepping.is_driven() and system.push is None:
+            kinetic = kinetic_energy(model, q, v)
+            found += energy_remarks(model.name, self.t, self.energy - self.work, kinetic, np.diff(self.work, axis=0))
         return tuple(sorted(found))
 
     def step_error(self, samples: int = 20) -> tuple[float, float]:
@@ -302,6 +308,12 @@ def alternation_remarks(model: Model, t: Array, v: Array, tau: Array) -> Iterato
     for name, joint, at in zip(model.joint_names, model.joints, model.v_slice):
         if joint is not None:
             yield from first_excess(t, "alternates", name, found[..., at], 0.0)
+
+
+def energy_remarks(name: str, t: Array, own: Array, kinetic: Array, work: Array) -> Iterator[Remark]:
+    """Yield the first time that a robot has more energy of its own, without its motors' work, than it had before."""
+    gained = own - np.minimum.accumulate(own, axis=0)
+    yield from first_excess(t, "energy", name, gained, ENERGY_RTOL * (kinetic.max(axis=0) + np.abs(work).sum(axis=0)))
 
 
 def neglect_remarks(model: Model, t: Array, v: Array) -> Iterator[Remark]:

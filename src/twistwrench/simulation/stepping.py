@@ -161,6 +161,10 @@ class TimeStepping:
         moves = self.points.restitution.any() or self.points.velocity.any() or self._damped
         return bool(moves or self.held.contacts or self.joints.friction.size or not self.contacts)
 
+    def is_driven(self) -> bool:
+        """Return whether what it touches or what holds it moves, and so puts energy in."""
+        return bool(self.points.velocity.any()) or any(c.velocity or c.acceleration for c in self.held.contacts)
+
     def step(self, tau: Array, q: Array, v: Array, since: float) -> tuple[Array, Array]:
         """Make one step of each item of a batch, under the joint forces τ, and return q and v at its end.
 
