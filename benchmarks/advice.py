@@ -46,10 +46,10 @@ ROBOTS = {
     "kinova": lambda: tw.load("kinova"),
     "anymal_b_kinova": lambda: tw.load("anymal_b_kinova"),
     "hextilt": lambda: tw.load("hextilt"),
-    "simple_humanoid": lambda: tw.load("simple_humanoid"),
-    "chain of 40": lambda: tw.chain(40, mass_ratio=1e-2),
+    "bolt": lambda: tw.load("bolt"),
+    "chain of 20": lambda: tw.chain(20, mass_ratio=1e-2),
 }
-"""Robots of example-robot-data: an arm, a quadruped with an arm, a drone with an arm, a humanoid; and a long chain."""
+"""Robots of example-robot-data: an arm, a quadruped with an arm, a drone with an arm, a biped; and a chain."""
 
 QUESTIONS: list[tuple[str, tuple[str, str], dict[str, Any]]] = [
     ("control", ("0.01 N m", "1e-20 N m"), {}),

@@ -1,6 +1,7 @@
 """What `tw.motion_error` says of eight motions, and how far off they are: against the same motions in 50 digits.
 
-python benchmarks/motion_errors.py            # all, some minutes, into results/, and the table of docs/simulation
+python benchmarks/motion_errors.py            # what is not in results/ yet, and the table of docs/simulation
+python benchmarks/motion_errors.py --anew     # all, ten minutes
 python benchmarks/motion_errors.py --tables   # only the table
 
 The truth is integrated by extrapolation of the midpoint rule (W. B. Gragg 1965, R. Bulirsch and J. Stoer 1966) with
@@ -58,7 +59,7 @@ def _pendulum(angle: float, duration: float, dt: float) -> Motion:
 
 
 def _double_pendulum() -> Motion:
-    return Motion(tw.load("double_pendulum"), np.array([2.5, 0.3]), np.zeros(2), 2.0, 0.001, 0.03125)
+    return Motion(tw.load("double_pendulum"), np.array([2.0, 0.3]), np.zeros(2), 1.5, 0.001, 0.015625)
 
 
 def _middle_axis() -> Motion:
@@ -86,7 +87,7 @@ def _arm() -> Motion:
     def hold(t: Any, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         return -20.0 * (q - goal) - 0.5 * v
 
-    return Motion(tw.load("planar_arm"), np.array([0.3, 0.6, 0.9]), np.zeros(3), 1.0, 0.005, 0.03125, hold)
+    return Motion(tw.load("planar_arm"), np.array([0.3, 0.6, 0.9]), np.zeros(3), 1.0, 0.005, 0.015625, hold)
 
 
 def _cart() -> Motion:
@@ -194,7 +195,7 @@ def measure(name: str) -> dict[str, Any]:
 def tables(language: str) -> dict[str, str]:
     """Return the table of a page."""
     found = json.loads(RESULTS.read_text(encoding="utf-8"))
-    return {"motions": table(cell for name, row in found.items() for cell in _cells(name, row, language))}
+    return {"motions": table(cell for name in MOTIONS for cell in _cells(name, found[name], language))}
 
 
 def _cells(name: str, row: dict[str, Any], language: str) -> Iterator[tuple[str, str, str]]:
@@ -211,11 +212,11 @@ def main() -> None:
     """Run what is asked for."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--tables", action="store_true", help="only the table, from results/")
-    if not parser.parse_args().tables:
-        found = dict[str, Any]()
-        for name in MOTIONS:
-            found[name] = measure(name)
-            print(name, found[name], flush=True)
+    parser.add_argument("--anew", action="store_true", help="measure all, and not what is missing")
+    args = parser.parse_args()
+    found = {} if args.anew or not RESULTS.exists() else json.loads(RESULTS.read_text(encoding="utf-8"))
+    for name in () if args.tables else [name for name in MOTIONS if name not in found]:
+        found[name] = measure(name)
         RESULTS.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     for language, page in PAGES.items():
         page.write_text(fill(page.read_text(encoding="utf-8"), tables(language)), encoding="utf-8")

@@ -133,6 +133,8 @@ def test_beside_symbols_a_float_is_its_shortest_decimal_and_beside_fractions_its
     assert tw.crba(TWO, [F(0), F(0)])[1, 1] != tw.crba(TWO, [x, 0])[1, 1]  # each has constants of its own
     assert tw.Twist([x, 0.1, 0, 0, 0, 0]).vector[1] == F(1, 10)
     assert tw.Twist([F(1), 0.1, 0, 0, 0, 0]).vector[1] == F(0.1)
+    turns, slides = tw.Twist([x, 0, 0, 0, 0, 0]), tw.Twist([0.1, 0, 0, 0, 0, 0.3])
+    assert [(turns + slides).vector[0] - x, (slides - turns).vector[5]] == [sympy.Rational(1, 10), F(3, 10)]
 
 
 def test_one_symbol_anywhere_in_the_state_makes_decimals_of_all_constants():

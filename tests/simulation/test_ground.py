@@ -481,3 +481,27 @@ def test_the_first_joint_of_a_fixed_base_is_named_and_not_the_world():
 def test_a_ground_of_another_kind_is_refused():
     with pytest.raises(TypeError, match="ground: expected a Ground, got float"):
         dropped(ground=0.0)
+
+
+def test_energy_that_steps_make_is_remarked():
+    """Legs that fold at 50 rad/s turn by a radian in 18 ms; what a belt puts in is not from nowhere."""
+    model = shared("humanoid")
+    soles = [tw.SurfaceContact(f"{side}_sole", (0.076, 0.0275), 0.6) for side in ("left", "right")]
+    q = model.standing()
+    q[2] += 0.3
+
+    def said(dt, steps):
+        bouncy = {"contacts": soles, "ground": tw.Ground(restitution=0.9)}
+        s = tw.simulate(model, q, np.zeros(27), dt=dt, steps=steps, **bouncy)
+        return [remark for remark in s.remarks if remark.kind == "energy"], s.energy
+
+    (remark,), energy = said(0.018, 16)
+    k = round(remark.t / 0.018)
+    assert remark.value == pytest.approx(energy[k] - energy[:k].min(), rel=1e-12)
+    assert remark.value == pytest.approx(12, rel=0.05)
+    assert "the energy of 'humanoid' grows by 11.6 J from nowhere" in str(remark)
+    assert not said(0.002, 135)[0]
+    belt = [tw.PointContact(f"p{k}", 0.5, velocity=(2.0, 0, 0)) for k in range(4)]
+    pulled = slide(0.5, np.zeros(6), contacts=belt, steps=40)
+    assert pulled.energy[-1] > pulled.energy[0] + 1
+    assert not [remark for remark in pulled.remarks if remark.kind == "energy"]

@@ -171,3 +171,22 @@ def test_neither_friction_nor_restitution_nor_the_ground_makes_another_program()
         made.append({*model._programs})
     assert made[0] == made[1]
     assert any(key[0] == "middle of a step" for key in made[0])
+
+
+def test_a_top_at_300_rad_per_s_has_order_1_on_a_point_and_order_4_on_a_joint():
+    """What docs/simulation.md says, against a step of 1/16 ms: how far its centre is from where it should be, mm."""
+    inertia, turn = tw.SpatialInertia(0.3, [0, 0, 0.05], np.diag([2e-4, 2e-4, 1e-4])), [np.sin(0.2), 0, 0, np.cos(0.2)]
+    hung, flies = tw.Builder("top"), body("top", inertia, [])
+    hung.link("top", parent="base_link", joint=tw.Spherical(), inertia=inertia)
+    hung = hung.build()
+
+    def centre(model, q, v, dt, **options):
+        s = tw.simulate(model, q, v, dt=dt, duration=0.2, **options)
+        return 1e3 * tw.frame_placement(model, s.q[-1], "top").act([0, 0, 0.05])
+
+    right = centre(hung, turn, [0, 0, 300.0], 0.2 / 3200)
+    touches = {"contacts": [tw.PointContact("top", 100.0)], "ground": tw.Ground()}
+    start = [0, 0, 0, *turn], [0, 0, 300.0, 0, 0, 0]
+    off = [np.linalg.norm(centre(flies, *start, dt, **touches) - right) for dt in (1e-3, 2.5e-4)]
+    assert off == pytest.approx([12, 1.8], rel=0.05)
+    assert np.linalg.norm(centre(hung, turn, [0, 0, 300.0], 1e-3) - right) == pytest.approx(0.034, rel=0.05)

@@ -143,20 +143,22 @@ class FramedVector:
         return self._frame == other._frame and np.array_equal(self._vector, other._vector)
 
     def __add__(self, other: object) -> Self:
-        if not isinstance(other, FramedVector):
-            self._refuse(self, "+", other)
-        frame = common_frame(self, "+", other)
-        both = f"{type(self).__name__} + {type(other).__name__}"
-        check_batches(both, self._vector.shape[:-1], other._vector.shape[:-1])
-        return type(self)(self._vector + other._vector, frame=frame)
+        mine, theirs, frame = self._beside("+", other)
+        return type(self)(mine + theirs, frame=frame)
 
     def __sub__(self, other: object) -> Self:
+        mine, theirs, frame = self._beside("-", other)
+        return type(self)(mine - theirs, frame=frame)
+
+    def _beside(self, sign: str, other: object) -> tuple[Array, Array, str | None]:
+        """Return the numbers of both sides, of one kind of numbers, and their frame; or raise."""
         if not isinstance(other, FramedVector):
-            self._refuse(self, "-", other)
-        frame = common_frame(self, "-", other)
-        both = f"{type(self).__name__} - {type(other).__name__}"
+            self._refuse(self, sign, other)
+        frame = common_frame(self, sign, other)
+        both = f"{type(self).__name__} {sign} {type(other).__name__}"
         check_batches(both, self._vector.shape[:-1], other._vector.shape[:-1])
-        return type(self)(self._vector - other._vector, frame=frame)
+        mine, theirs = as_number_arrays(left=(self._vector, (6,)), right=(other._vector, (6,)))
+        return mine, theirs, frame
 
     def __radd__(self, other: object) -> Self:
         if type(other) is int and other == 0:  # where Python's sum starts
