@@ -503,5 +503,5 @@ def test_energy_that_steps_make_is_remarked():
     assert not said(0.002, 135)[0]
     belt = [tw.PointContact(f"p{k}", 0.5, velocity=(2.0, 0, 0)) for k in range(4)]
     pulled = slide(0.5, np.zeros(6), contacts=belt, steps=40)
-    assert pulled.energy[-1] > pulled.energy[0] + 1
+    assert pulled.energy[-1] > pulled.energy[0] + 0.9
     assert not [remark for remark in pulled.remarks if remark.kind == "energy"]
