@@ -47,7 +47,7 @@ ROBOTS = {
     "anymal_b_kinova": lambda: tw.load("anymal_b_kinova"),
     "hextilt": lambda: tw.load("hextilt"),
     "bolt": lambda: tw.load("bolt"),
-    "chain of 20": lambda: tw.chain(20, mass_ratio=1e-2),
+    "chain of 12": lambda: tw.chain(12, mass_ratio=1e-2),
 }
 """Robots of example-robot-data: an arm, a quadruped with an arm, a drone with an arm, a biped; and a chain."""
 

@@ -78,7 +78,7 @@ def _top() -> Motion:
 def _go2() -> Motion:
     model = tw.load("go2")
     v = np.random.default_rng(38).standard_normal(18)
-    return Motion(model, model.standing(), v, 0.5, 0.01, 0.0625)
+    return Motion(model, model.standing(), v, 0.3, 0.01, 0.06)
 
 
 def _arm() -> Motion:
@@ -87,7 +87,7 @@ def _arm() -> Motion:
     def hold(t: Any, q: np.ndarray, v: np.ndarray) -> np.ndarray:
         return -20.0 * (q - goal) - 0.5 * v
 
-    return Motion(tw.load("planar_arm"), np.array([0.3, 0.6, 0.9]), np.zeros(3), 1.0, 0.005, 0.015625, hold)
+    return Motion(tw.load("planar_arm"), np.array([0.3, 0.6, 0.9]), np.zeros(3), 0.5, 0.005, 0.015625, hold)
 
 
 def _cart() -> Motion:

@@ -1,5 +1,9 @@
 """`tw.motion_error` against closed forms, invariants, SciPy's DOP853; `cheapest_steps` by its promise."""
 
+import importlib
+import json
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -7,7 +11,11 @@ import twistwrench as tw
 from twistwrench import step_choice
 from twistwrench.simulation.growth import apart
 
+from ..pages import page
 from .test_step_error import EXAMPLES, q_rate
+
+SMALL_MM = 5.0
+"""Beyond this, the error is no longer small against a robot of 1 m."""
 
 MOTIONS = {  # without contacts, and none that a clock holds: the start of each, and for how long
     "pendulum": 3.0,
@@ -90,3 +98,51 @@ def test_where_the_motion_outruns_doubles_it_is_said_for_how_long_they_do(monkey
     found = step_choice.cheapest_steps(tw.load("pendulum"), 0.1, 10.0, ([np.pi], [0.0]))
     assert all(way.error > 0.1 for way in found.ways)
     assert "the motion multiplies errors; for" in found.instead
+
+
+@pytest.fixture
+def benchmark(monkeypatch):
+    """benchmarks/motion_errors.py, which integrates motions in 50 digits."""
+    pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth to hold anything against")
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
+    return importlib.import_module("motion_errors")
+
+
+@pytest.mark.parametrize("language", ["", ".zh-CN"])
+def test_the_table_of_eight_motions_is_that_of_the_results(benchmark, language):
+    text = page("simulation", language).read_text(encoding="utf-8")
+    assert benchmark.fill(text, benchmark.tables(language)) == text
+    assert set(json.loads(benchmark.RESULTS.read_text(encoding="utf-8"))) == set(benchmark.MOTIONS)
+    assert len(benchmark.MOTIONS) == 8
+
+
+def test_what_is_said_of_eight_motions_is_what_50_digits_find(benchmark):
+    """Within a fifth, while the error is small against the motion; rounding alone is said with a margin above."""
+    for name, row in json.loads(benchmark.RESULTS.read_text(encoding="utf-8")).items():
+        for method in benchmark.METHODS:
+            said, found = row[method]["said"], row[method]["found"]
+            assert found < 1.2 * said, (name, method)
+            if name != "a pendulum begins upright" and found < SMALL_MM:
+                assert said < 1.2 * found, (name, method)
+
+
+def test_a_motion_in_50_digits_ends_as_the_closed_form_says(benchmark):
+    """Jacobi's elliptic functions: sin(φ/2) = k sn(K − ω T), of the pendulum from 2 rad at rest."""
+    import mpmath
+
+    motion = benchmark.MOTIONS["a pendulum swings"][1]()._replace(duration=0.5)
+    with mpmath.workdps(50):
+        mass, rod = (mpmath.mpf(x) for x in (motion.model.mass, tw.crba(motion.model, [0.0])[0, 0]))
+        k, rate = mpmath.sin(1), mpmath.sqrt(mpmath.mpf(9.81) * mass / rod)
+        exact = 2 * mpmath.asin(k * mpmath.ellipfun("sn", mpmath.ellipk(k**2) - rate / 2, k=k))
+        assert abs(benchmark.truth(motion)[0] - exact) < 1e-14
+
+
+@pytest.mark.slow
+def test_each_motion_is_off_as_the_table_says(benchmark):
+    before = json.loads(benchmark.RESULTS.read_text(encoding="utf-8"))
+    for name in benchmark.MOTIONS:
+        found = benchmark.measure(name)
+        for method in benchmark.METHODS:
+            if name != "a pendulum begins upright":  # rounding, which is another one elsewhere
+                assert found[method]["found"] == pytest.approx(before[name][method]["found"], rel=0.02, abs=1e-9)
