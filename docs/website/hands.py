@@ -34,7 +34,12 @@ formulas as in the package; nothing is loaded from elsewhere, and nothing moves 
 不从别处载入任何内容，按下「播放」之前什么都不会动。""",
 }
 NUMBERS = {"en": "The numbers", "zh": "数值"}
-COMMON = {"play": {"en": "Play", "zh": "播放"}, "pause": {"en": "Pause", "zh": "暂停"}, "stop": {"en": ". ", "zh": "。"}, "comma": {"en": ", ", "zh": "，"}}
+COMMON = {
+    "play": {"en": "Play", "zh": "播放"},
+    "pause": {"en": "Pause", "zh": "暂停"},
+    "stop": {"en": ". ", "zh": "。"},
+    "comma": {"en": ", ", "zh": "，"},
+}
 TRY = {"en": "## What to try", "zh": "## 试一试"}
 BESIDE = {"en": "Take it in your hand:", "zh": "动手试试："}
 
