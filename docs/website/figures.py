@@ -72,9 +72,15 @@ def figures(notebook: nbformat.NotebookNode) -> Iterator[Figure]:
         else:
             names = [_name(output.data) for output in cell.outputs if "data" in output]
             if names := [name for name in names if name]:
-                stop = "" if plain(heading)[-1:] in {*"?!？！"} else "."
-                says = f"{plain(heading)}{stop} {before}" if before else plain(heading)
+                says = _sentence(plain(heading)) + before if before else plain(heading)
                 yield Figure(cell, heading, _shortened(says), names[0])
+
+
+def _sentence(heading: str) -> str:
+    """Return a heading with what ends a sentence, as its language writes it."""
+    chinese = bool(re.search("[\u4e00-\u9fff]", heading))
+    stop = "" if heading[-1:] in {*"?!？！"} else "。" if chinese else "."
+    return f"{heading}{stop}" if chinese else f"{heading}{stop} "
 
 
 def _name(data: dict[str, str]) -> str:

@@ -44,6 +44,13 @@ def notebook(*cells):
 # ---------------------------------------------------------------- pictures of the notebooks
 
 
+@pytest.mark.parametrize(
+    ("heading", "told"), [("The map", "The map. "), ("What holds it up?", "What holds it up? "), ("对照表", "对照表。")]
+)
+def test_a_heading_ends_as_a_sentence(figures, heading, told):
+    assert figures._sentence(heading) == told
+
+
 def test_a_picture_is_told_by_its_heading_and_the_words_before_it(figures):
     shown = notebook(
         "# A\n\nFirst.",
