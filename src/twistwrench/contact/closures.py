@@ -19,7 +19,7 @@ from ..spatial import SE3, log3
 from ..spatial._elementary import at_first_index, sqrt
 from .kinds import normal_axes, unit_direction
 from .relative import FrameRows, Posture, StateMotion
-from .types import Contact, RowValues, checked_frame, checked_motion
+from .types import Contact, RowValues, check_given, checked_frame
 
 __all__ = ["Coupling", "DistanceConstraint", "LoopClosure"]
 
@@ -115,8 +115,8 @@ class LoopClosure(_Internal):
                 raise ValueError(f"{which}: expected an axis to turn about, or welded=True, got both")
             axis = as_exactly(self.axis, f"{which}: axis", 3)
             object.__setattr__(self, "axis", unit_direction(self.frame, "axis", axis))
+        check_given(self)
         for name in ("velocity", "acceleration"):
-            checked_motion(self, name)
             if self.axis is not None and any(getattr(self, name)[:2]):
                 raise ValueError(f"{which}: {name}: expected no turn of the axis in {self.to!r}: its first two are 0")
 
@@ -215,8 +215,7 @@ class DistanceConstraint(_Internal):
     def __post_init__(self) -> None:
         checked_frame(self.frame)
         checked_frame(self.to)
-        checked_motion(self, "velocity")
-        checked_motion(self, "acceleration")
+        check_given(self)
 
     @property
     def rows(self) -> slice:
@@ -307,8 +306,7 @@ class Coupling(_Internal):
             (name, float(as_exactly(x, f"coupling {self.frame!r}: ratio of {name!r}"))) for name, x in given.items()
         )
         object.__setattr__(self, "ratios", tuple(ratios))
-        checked_motion(self, "velocity")
-        checked_motion(self, "acceleration")
+        check_given(self)
 
     def check(self, model: Model) -> None:
         """Raise an error if one of these is not a joint of one degree of freedom."""

@@ -19,7 +19,7 @@ from ..spatial import SE3, exp3
 from ..spatial._elementary import at_first_index, sqrt
 from ..spatial.rotation import cross_matrix
 from .relative import FrameRows, StateMotion
-from .types import Contact, RowValues, checked_frame, checked_motion, checked_restitution
+from .types import Contact, RowValues, check_given, checked_frame
 
 __all__ = [
     "PointContact",
@@ -79,9 +79,7 @@ class PointContact(Contact):
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
         normal = as_exactly(self.normal, f"contact {self.frame!r}: normal", 3)
         object.__setattr__(self, "normal", unit_direction(self.frame, "normal", normal))
-        checked_motion(self, "velocity")
-        checked_motion(self, "acceleration")
-        checked_restitution(self)
+        check_given(self)
 
     @property
     def rows(self) -> slice:
@@ -162,9 +160,7 @@ class SurfaceContact(Contact):
             flat = "" if (half < 0).any() else "; a line is two PointContacts at its ends, and a point is one"
             raise ValueError(f"contact {self.frame!r}: half_size: expected lengths above 0, got {half.tolist()}{flat}")
         object.__setattr__(self, "half_size", tuple(half.tolist()))
-        checked_motion(self, "velocity")
-        checked_motion(self, "acceleration")
-        checked_restitution(self)
+        check_given(self)
 
     @property
     def rows(self) -> slice:
@@ -241,8 +237,7 @@ class SlidingContact(Contact):
         if len(units) == 2 and not np.abs(np.cross(units[0], units[1])).max() > MIN_ANGLE_RAD:
             raise ValueError(f"{which}: expected two directions that are independent, got {given.tolist()}")
         object.__setattr__(self, "normals", tuple(units))
-        checked_motion(self, "velocity")
-        checked_motion(self, "acceleration")
+        check_given(self)
 
     @property
     def pushes(self) -> bool:  # type: ignore[override]
@@ -313,6 +308,13 @@ def _coefficient(frame: str, mu: ArrayLike) -> float:
     return value
 
 
+def _length(frame: str, radius: ArrayLike) -> float:
+    value = float(as_exactly(radius, f"contact {frame!r}: radius"))
+    if value <= 0:
+        raise ValueError(f"contact {frame!r}: radius: expected a length above 0, got {value:g}")
+    return value
+
+
 @dataclass(frozen=True)
 class SphereContact(Contact):
     """A ball on a plane: it touches at its lowest point, which is another one of the body as it turns.
@@ -365,13 +367,10 @@ class SphereContact(Contact):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
-        radius = float(as_exactly(self.radius, f"contact {self.frame!r}: radius"))
-        if radius <= 0:
-            raise ValueError(f"contact {self.frame!r}: radius: expected a length above 0, got {radius:g}")
         normal = as_exactly(self.normal, f"contact {self.frame!r}: normal", 3)
-        object.__setattr__(self, "radius", radius)
+        object.__setattr__(self, "radius", _length(self.frame, self.radius))
         object.__setattr__(self, "normal", unit_direction(self.frame, "normal", normal))
-        checked_restitution(self)
+        check_given(self)
 
     @property
     def rows(self) -> slice:
@@ -466,14 +465,11 @@ class WheelContact(Contact):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "mu", _coefficient(self.frame, self.mu))
-        radius = float(as_exactly(self.radius, f"contact {self.frame!r}: radius"))
-        if radius <= 0:
-            raise ValueError(f"contact {self.frame!r}: radius: expected a length above 0, got {radius:g}")
-        object.__setattr__(self, "radius", radius)
+        object.__setattr__(self, "radius", _length(self.frame, self.radius))
         for name in ("axis", "normal"):
             given = as_exactly(getattr(self, name), f"contact {self.frame!r}: {name}", 3)
             object.__setattr__(self, name, unit_direction(self.frame, name, given))
-        checked_restitution(self)
+        check_given(self)
 
     @property
     def rows(self) -> slice:

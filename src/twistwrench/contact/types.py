@@ -25,7 +25,7 @@ from ..spatial import SE3, log3
 from ..spatial.rotation import cross_matrix
 from .relative import FrameRows, Loop, Posture, StateMotion
 
-__all__ = ["Contact", "Pyramid", "RowValues", "checked_frame", "checked_motion", "checked_restitution"]
+__all__ = ["Contact", "Pyramid", "RowValues", "check_given", "checked_frame"]
 
 Pyramid = Literal["inner", "outer"]
 
@@ -287,24 +287,18 @@ def _checked(sides: int, pyramid: Pyramid) -> int:
     return int(sides)
 
 
-def checked_motion(contact: Contact, name: str) -> None:
-    """Make a contact's given velocity or acceleration a tuple of one number for each row; raise if it is not."""
-    given: ArrayLike = getattr(contact, name)
-    if isinstance(given, tuple) and not given:
-        return
-    checked = as_exactly(given, f"contact {contact.frame!r}: {name}", contact.dim)
-    object.__setattr__(contact, name, tuple(checked.tolist()))
-
-
-def checked_restitution(contact: Contact) -> None:
-    """Raise if a contact's restitution is neither None nor a number from 0 to 1."""
-    given = contact.restitution
-    if given is None:
-        return
-    which = f"contact {contact.frame!r}: restitution"
-    if not 0 <= as_number(given, which) <= 1:
-        raise ValueError(f"{which}: expected a number from 0 to 1, got {given!r}")
-    object.__setattr__(contact, "restitution", float(given))
+def check_given(contact: Contact) -> None:
+    """Check what a contact may be given: a motion, one number for each row, and a restitution from 0 to 1."""
+    for name in ("velocity", "acceleration"):
+        given: ArrayLike = getattr(contact, name)
+        if not (isinstance(given, tuple) and not given):
+            checked = as_exactly(given, f"contact {contact.frame!r}: {name}", contact.dim)
+            object.__setattr__(contact, name, tuple(checked.tolist()))
+    if contact.restitution is not None:
+        which = f"contact {contact.frame!r}: restitution"
+        if not 0 <= as_number(contact.restitution, which) <= 1:
+            raise ValueError(f"{which}: expected a number from 0 to 1, got {contact.restitution!r}")
+        object.__setattr__(contact, "restitution", float(contact.restitution))
 
 
 def checked_frame(frame: str) -> None:
