@@ -31,7 +31,7 @@ MAX_TERMS = 6
 
 @dataclass(frozen=True, eq=False)
 class BaseParameters:
-    """What `base_parameters` returns: β = combinations @ π with τ = Y[..., independent] @ β.
+    """Base parameters β of a robot, from `base_parameters`: β = combinations @ π with τ = Y[..., independent] @ β.
 
     Attributes
     ----------

@@ -82,7 +82,7 @@ def test_go2_has_a_row_for_every_quantity_of_the_chapter():
     assert rows["mass matrix M"].shape == (18, 18)
     assert rows["J, local"].shape == (4, 6, 18)
     assert rows["static equilibrium τ, λ"].shape == (24,)
-    assert {row.section for row in rows.values()} >= {"49.1", "49.2", "49.3", "49.5", "49.6", "49.7", "49.8", "49.10"}
+    assert {row.section for row in rows.values()} >= {"49.1", "49.2", "49.3", "49.6", "49.7", "49.8", "49.10"}
 
 
 @needs_pinocchio
@@ -91,9 +91,9 @@ def test_the_fast_way_passes_its_rows(robot):
     report = validate(robot, states=3, truths=2, fast=True)
     assert report.passed
     assert [row.quantity for row in report.rows if not row.quantity.startswith("J")] == [
-        *("step on the manifold", "difference of two q", "kinetic energy", "potential energy"),
-        *("inverse dynamics", "inverse dynamics, f_ext", "forward dynamics", "forward dynamics, f_ext"),
-        *("mass matrix M", "h = C v + g", "centre of mass", "centroidal map A_G"),
+        *("step on the manifold", "difference of two q", "inverse dynamics", "inverse dynamics, f_ext"),
+        *("h = C v + g", "forward dynamics", "forward dynamics, f_ext"),
+        *("mass matrix M", "kinetic energy", "potential energy", "centre of mass", "centroidal map A_G"),
     ]
 
 

@@ -11,13 +11,13 @@ kinematics      49.6     where are the bodies, and how do they move: placements,
 points          49.6     velocity, acceleration and Jacobian of a point given at run time
 rnea            49.6     which forces make a motion happen
 frame_wrench    49.6     the wrench through a weld: what a force-torque sensor reads
+coriolis        49.6     the Coriolis matrix C
 singular                 where is q̈ not determined: `refuse_singular` raises with the joint's name
 aba             49.7     how does the robot accelerate
 articulated     49.7     the articulated inertia of a body, by its name
 crba            49.8     the mass matrix M
 factorization   49.8     M = Lᵀ D L along the tree, and solves with it
 inverse_mass    49.8     M⁻¹ without M
-coriolis        49.8     the Coriolis matrix C
 energy          49.8     kinetic and potential energy
 floating_base   49.9     the selection matrix S, contact Jacobians J_c, static equilibrium
 delassus        49.9     the inertia at a contact: Λ⁻¹ = J M⁻¹ Jᵀ, and Λ

@@ -1,4 +1,4 @@
-"""The Coriolis matrix (49.6, 49.9)."""
+"""The Coriolis matrix (49.6)."""
 
 from __future__ import annotations
 

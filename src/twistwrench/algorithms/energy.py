@@ -1,4 +1,4 @@
-"""Kinetic and potential energy (49.5, 49.8)."""
+"""Kinetic and potential energy (49.8; of one body, 49.5)."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
     V, _ = motion(tree_terms(model, q), columns(model, v), columns(model, np.zeros_like(v)))
     twice: Array = (constants.armature * v * v).sum(axis=-1)
     for I, Vi in zip(constants.I, V):
-        twice = twice + (Vi * (I @ Vi)).sum(axis=(-2, -1))  # 49.5 T
+        twice = twice + (Vi * (I @ Vi)).sum(axis=(-2, -1))  # 49.8 T
     return twice / 2
 
 
@@ -82,5 +82,5 @@ def potential_energy(model: Model, q: ArrayLike) -> Array:
     energy = np.zeros(q.shape[:-1], q.dtype)
     for T, inertia in zip(placements(model.parent, joint_placements(model, q)), model.inertia):
         com = place_point(T.rotation, T.translation, convert(inertia.com, q.dtype))
-        energy = energy + convert(inertia.mass, q.dtype) * (com * weight).sum(axis=-1)  # 49.5 U
+        energy = energy + convert(inertia.mass, q.dtype) * (com * weight).sum(axis=-1)  # 49.8 U
     return energy

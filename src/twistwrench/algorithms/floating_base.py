@@ -55,7 +55,7 @@ def selection_matrix(model: Model) -> Array:
 
 
 class HeldRows(Protocol):
-    """What is asked of a contact of any kind, which is in a later room."""
+    """Rows of J that a contact holds, of any kind in `twistwrench.contact`: what is asked of it here."""
 
     @abstractmethod
     def check(self, model: Model) -> None:
@@ -139,7 +139,7 @@ def base_placement(model: Model, q: Array) -> SE3:
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """What `static_equilibrium` returns.
+    """Torques and contact forces of a robot at rest, from `static_equilibrium`.
 
     Attributes
     ----------

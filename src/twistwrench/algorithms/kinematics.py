@@ -29,7 +29,7 @@ Reference = Literal["local", "world", "local_world_aligned"]
 
 
 class Kinematics(NamedTuple):
-    """What `forward_kinematics` returns; entry 0 is the world's.
+    """Placements, twists and accelerations of all bodies, from `forward_kinematics`; entry 0 is the world's.
 
     Attributes
     ----------

@@ -146,7 +146,7 @@ def joint_wrenches(model: Model, q: ArrayLike, v: ArrayLike, a: ArrayLike, f_ext
 
 @also_of_mimics
 def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike) -> Array:
-    """Return h(q, v) = C(q, v) v + g(q), what is left of τ without acceleration (49.9).
+    """Return h(q, v) = C(q, v) v + g(q), what is left of τ without acceleration (49.6).
 
     Parameters
     ----------

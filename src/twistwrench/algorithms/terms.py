@@ -22,7 +22,7 @@ Pair = tuple[int, int]
 
 
 class Terms:
-    """What the records have in common: how they print."""
+    """Record of the terms of a recursion: how it prints."""
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f.name for f in fields(self))})"  # type: ignore[arg-type]
@@ -30,7 +30,7 @@ class Terms:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RneaTerms(Terms):
-    """What `rnea_terms` returns.
+    """Twists, accelerations and wrenches of the RNEA, from `rnea_terms`.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class RneaTerms(Terms):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class AbaTerms(Terms):
-    """What `aba_terms` returns.
+    """Articulated-body inertias, bias wrenches and accelerations of the ABA, from `aba_terms`.
 
     Attributes
     ----------
@@ -114,7 +114,7 @@ class AbaTerms(Terms):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ArticulatedTerms(Terms):
-    """What `articulated_inertias` returns: the terms of `AbaTerms` that depend on the posture alone.
+    """Terms of the ABA that depend on the posture alone, from `articulated_inertias`: see `AbaTerms`.
 
     Attributes
     ----------
@@ -130,7 +130,7 @@ class ArticulatedTerms(Terms):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CrbaTerms(Terms):
-    """What `crba_terms` returns.
+    """Composite inertias, wrenches and mass matrix of the CRBA, from `crba_terms`.
 
     Attributes
     ----------
@@ -158,7 +158,7 @@ class CrbaTerms(Terms):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CentroidalTerms(Terms):
-    """What `centroidal_terms` returns.
+    """Transforms, composite inertias and momentum map of the CCRBA, from `centroidal_terms`.
 
     Attributes
     ----------
@@ -177,7 +177,7 @@ class CentroidalTerms(Terms):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Subtree(Terms):
-    """What `subtree` returns; G is the subtree's own centre of mass, the axes are the world's.
+    """Mass, centre, Jacobian and inertia of a part of a robot, from `subtree`; at its own centre G, axes of the world.
 
     Attributes
     ----------

@@ -26,7 +26,7 @@ QUANTITIES = ("M", "h", "J_c", "A_G")
 
 @dataclass(frozen=True, repr=False)
 class Dynamics:
-    """What `dynamics` returns; quantities that were not wanted are None.
+    """M, h, J_c and A_G of a robot, from `dynamics`; quantities that were not wanted are None.
 
     Attributes
     ----------

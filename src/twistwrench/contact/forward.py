@@ -97,7 +97,7 @@ class Baumgarte:
 
 @dataclass(frozen=True)
 class ContactDynamics:
-    """Result of `contact_forward_dynamics`.
+    """Acceleration and contact forces of a robot whose contacts hold, from `contact_forward_dynamics`.
 
     Attributes
     ----------
@@ -306,7 +306,7 @@ def check_contradiction(contacts: Sequence[Contact], left: Array, rounding: Arra
 
 @dataclass(frozen=True)
 class Impact:
-    """Result of `impact`.
+    """Velocity and impulses after an impact, from `impact`.
 
     Attributes
     ----------

@@ -28,7 +28,7 @@ FRICTION_GROWTH = 2.0**9
 
 @dataclass(frozen=True)
 class StanceMargins:
-    """Result of `stance_margins`.
+    """Margins of a stance against pulling, slipping and tipping, from `stance_margins`.
 
     Attributes
     ----------

@@ -57,7 +57,7 @@ MAX_FORCE_WEIGHTS = 1e6
 
 @dataclass(frozen=True)
 class ContactForces:
-    """Result of `contact_inverse_dynamics` and `friction_inverse_dynamics`.
+    """Joint forces and contact forces of a motion, from `contact_inverse_dynamics` and `friction_inverse_dynamics`.
 
     Attributes
     ----------

@@ -57,7 +57,7 @@ def rnea(
 
 
 def nonlinear_effects(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | None = None) -> Array:
-    """Return what `twistwrench.nonlinear_effects` does: h = C v + g (49.9).
+    """Return what `twistwrench.nonlinear_effects` does: h = C v + g (49.6).
 
     Parameters
     ----------

@@ -193,7 +193,7 @@ def center_of_mass_jacobian(model: Model, q: ArrayLike, *, out: Array | None = N
 
 
 def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | None = None) -> Array:
-    """Return what `twistwrench.kinetic_energy` does: T = ½ vᵀ M v, rotors included (49.5).
+    """Return what `twistwrench.kinetic_energy` does: T = ½ vᵀ M v, rotors included (49.8).
 
     Parameters
     ----------
@@ -222,7 +222,7 @@ def kinetic_energy(model: Model, q: ArrayLike, v: ArrayLike, *, out: Array | Non
 
 
 def potential_energy(model: Model, q: ArrayLike, *, out: Array | None = None) -> Array:
-    """Return what `twistwrench.potential_energy` does: U = −Σ mᵢ g · cᵢ (49.5).
+    """Return what `twistwrench.potential_energy` does: U = −Σ mᵢ g · cᵢ (49.8).
 
     Parameters
     ----------

@@ -70,7 +70,7 @@ class Results(SimpleNamespace):
 
 
 class Program:
-    """What `twistwrench.compile` returns: call it with arrays like any function of the package.
+    """Straight-line program from `twistwrench.compile`: call it with arrays like any function of the package.
 
     TypeError is raised where it is called without one of its arguments, or with others.
 

@@ -137,7 +137,7 @@ class ConfigurationSpace:
         return np.concatenate([np.zeros((*batch, 0)), *parts], axis=-1)
 
     def integrate(self, q: ArrayLike, v_dt: ArrayLike) -> Array:
-        """Go from q along v_dt: q ⊕ v_dt.
+        """Return the configuration q ⊕ v_dt, to which v_dt leads from q.
 
         Parameters
         ----------

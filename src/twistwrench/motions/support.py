@@ -25,7 +25,7 @@ MIN_LOAD_SHARE = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class GroundLoad:
-    """Result of `ground`, for n states, of which l load the ground.
+    """Forces and centre of pressure that a motion asks of the ground, from `ground`: n states, of which l load it.
 
     Attributes
     ----------

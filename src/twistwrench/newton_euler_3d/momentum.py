@@ -1,4 +1,4 @@
-"""Centre of mass, momentum about it, energies: sums over the bodies (49.5, 49.10)."""
+"""Centre of mass, momentum about it, energies: sums over the bodies (49.1; 49.8 and 49.10 in six dimensions)."""
 
 from __future__ import annotations
 

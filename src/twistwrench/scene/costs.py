@@ -110,7 +110,7 @@ class Option:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Costs:
-    """Result of `Scene.cheapest`: every option, the least work first, and the choice. Printed, it is a table.
+    """Costs of the models that could serve, from `Scene.cheapest`: all options, the least work first. A table in print.
 
     Attributes
     ----------

@@ -22,7 +22,7 @@ LIMIT_ATOL = 1e-9
 
 @dataclass(frozen=True)
 class Standing:
-    """Result of `Scene.can_stand`. True where the robot stands; printed, it gives the reason.
+    """Verdict on a stance, from `Scene.can_stand`. True where the robot stands; printed, it gives the reason.
 
     Attributes
     ----------

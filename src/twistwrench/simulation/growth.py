@@ -36,7 +36,7 @@ NUDGE = 1e-9
 
 
 class MotionError(NamedTuple):
-    """Result of `motion_error`: how far, in mm, the worst point of the robot is from where it should be at the end.
+    """Error of a motion at its end, from `motion_error`: how far the robot's worst point is off, in mm.
 
     Attributes
     ----------

@@ -138,14 +138,14 @@ class Simulation:
 
     @cached_property
     def work(self) -> Array:
-        """What the joint forces τ have put in since the start, shape (n, ...), J: of each step τ times the mean v."""
+        """Work of the joint forces τ since the start, shape (n, ...), J: of each step τ times the mean v."""
         power = (self.tau * (self.v[1:] + self.v[:-1])).sum(axis=-1) / 2
         start = np.zeros((1, *power.shape[1:]), power.dtype)
         return np.concatenate([start, np.cumsum(power * self.system.dt, axis=0)])
 
     @cached_property
     def remarks(self) -> tuple[Remark, ...]:
-        """What a real robot would not have done, or not without being noticed, the first time of each, in time order.
+        """Remarks on what a real robot would not have done, or not unnoticed, the first time of each, in time order.
 
         A contact that sticks and pulls, would slip or tip; a body below all contacts; a joint beyond its range or its
         speed, or whose velocity alternates and grows; a motor beyond its limit; on a ground, a contact that leaves it

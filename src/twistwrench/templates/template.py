@@ -23,7 +23,7 @@ __all__ = ["Residual", "Template", "com_acceleration", "force", "full_rate", "lo
 
 @dataclass(frozen=True)
 class Residual:
-    """Result of `Template.residual`: the prediction minus the full model's ḣ_G.
+    """Error of a template, from `Template.residual`: the prediction minus the full model's ḣ_G.
 
     Attributes
     ----------

@@ -61,7 +61,7 @@ class BodyRecord:
 
 @dataclass(frozen=True, repr=False)
 class Trace:
-    """What each body received and passed on, made by `twistwrench.trace`.
+    """Account of what each body received and passed on, from `twistwrench.trace`.
 
     It prints as a table; a notebook shows it as a page to go through line by line.
 

@@ -1,4 +1,4 @@
-"""The rows of 49.5 and 49.10: energies, centre of mass, centroidal momentum."""
+"""The rows of 49.8 and 49.10: energies, centre of mass, centroidal momentum."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["MOMENTUM"]
 
 MOMENTUM = (
     ComparedQuantity(
-        "49.5",
+        "49.8",
         "kinetic energy",
         "computeKineticEnergy",
         ours=lambda m, s: tw.kinetic_energy(m, s.q, s.v),
@@ -23,7 +23,7 @@ MOMENTUM = (
         truth=lambda m, s: np.array(ne.kinetic_energy(m, s.q, s.v)),
     ),
     ComparedQuantity(
-        "49.5",
+        "49.8",
         "potential energy",
         "computePotentialEnergy",
         ours=lambda m, s: tw.potential_energy(m, s.q),

@@ -10,5 +10,5 @@ from .quantity import ComparedQuantity
 __all__ = ["QUANTITIES"]
 
 QUANTITIES: tuple[ComparedQuantity, ...] = tuple(
-    sorted((*KINEMATICS, *MOMENTUM, *DYNAMICS), key=lambda row: float(row.section.split(".")[1]))
+    sorted((*KINEMATICS, *DYNAMICS, *MOMENTUM), key=lambda row: float(row.section.split(".")[1]))
 )
