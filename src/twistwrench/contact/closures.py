@@ -17,7 +17,7 @@ from ..errors import SingularError
 from ..model import Model, readonly
 from ..spatial import SE3, log3
 from ..spatial._elementary import at_first_index, sqrt
-from .kinds import normal_axes, unit_direction
+from .kinds import dot, normal_axes, unit_direction
 from .relative import FrameRows, Posture, StateMotion
 from .types import Contact, RowValues, check_given, checked_frame
 
@@ -233,20 +233,15 @@ class DistanceConstraint(_Internal):
         J, d = rows.J[..., 3:, :], self._distance(rows.point)
         n = rows.point / d
         rate = np.matvec(J, rows.v)
-        across = rate - n * _dot(n, rate)
-        return n[..., None, :] @ J, _dot(n, rows.bias[..., 3:]) + _dot(across, across) / d
+        across = rate - n * dot(n, rate)
+        return n[..., None, :] @ J, dot(n, rows.bias[..., 3:]) + dot(across, across) / d
 
     def _distance(self, point: Array) -> Array:
-        d = sqrt(_dot(point, point))
+        d = sqrt(dot(point, point))
         if d.dtype != object and not d.all():
             where = at_first_index(d[..., 0] == 0)
             raise SingularError(f"contact {self.frame!r}: its points meet, so the line has no direction{where}")
         return d
-
-
-def _dot(a: Array, b: Array) -> Array:
-    """Return a·b, shape (..., 1), of numbers of any kind."""
-    return np.asarray((a * b).sum(axis=-1, keepdims=True))
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ __all__ = [
     "SphereContact",
     "SurfaceContact",
     "WheelContact",
+    "dot",
     "normal_axes",
     "unit_direction",
 ]
@@ -38,8 +39,49 @@ FLAT_SINE = 1e-9
 """Sine of the angle between axle and normal: below, the wheel lies flat."""
 
 
+class _OnPlane(Contact):
+    """A contact at one point of a plane, of which it has the normal."""
+
+    normal: tuple[float, float, float]
+
+    @property
+    def rows(self) -> slice:
+        """The three linear rows."""
+        return slice(3, 6)
+
+    def axes(self, rotation: Array) -> Array:
+        """Return the axes of the world, turned the shortest way until z is the normal."""
+        return np.broadcast_to(self._axes, rotation.shape)
+
+    @cached_property
+    def _axes(self) -> Array:
+        return normal_axes(self.normal)
+
+    @property
+    def point_names(self) -> tuple[str, ...]:
+        """The frame's name."""
+        return (repr(self.frame),)
+
+
+class _Rolling(_OnPlane):
+    """A contact of a body that rolls on a plane: it touches at its lowest point."""
+
+    radius: float
+
+    @cached_property
+    def placed(self) -> Array:
+        """The height alone."""
+        n = np.array(self.normal)
+        return readonly(np.concatenate([np.zeros((3, 3)), np.outer(n, n)], axis=1))
+
+    @property
+    def points(self) -> Array:
+        """The lowest point."""
+        return np.array([[0.0, 0.0, -self.radius]])
+
+
 @dataclass(frozen=True)
-class PointContact(Contact):
+class PointContact(_OnPlane):
     """A point that does not move: three forces, no moment.
 
     Parameters
@@ -82,27 +124,9 @@ class PointContact(Contact):
         check_given(self)
 
     @property
-    def rows(self) -> slice:
-        """The three linear rows."""
-        return slice(3, 6)
-
-    def axes(self, rotation: Array) -> Array:
-        """Return the axes of the world, turned the shortest way until z is the normal."""
-        return np.broadcast_to(self._axes, rotation.shape)
-
-    @cached_property
-    def _axes(self) -> Array:
-        return normal_axes(self.normal)
-
-    @property
     def points(self) -> Array:
         """The frame's origin."""
         return np.zeros((1, 3))
-
-    @property
-    def point_names(self) -> tuple[str, ...]:
-        """The frame's name."""
-        return (repr(self.frame),)
 
 
 @dataclass(frozen=True)
@@ -316,7 +340,7 @@ def _length(frame: str, radius: ArrayLike) -> float:
 
 
 @dataclass(frozen=True)
-class SphereContact(Contact):
+class SphereContact(_Rolling):
     """A ball on a plane: it touches at its lowest point, which is another one of the body as it turns.
 
     That point moves with v + ω × (−r n), where v is the velocity of the centre and n the normal. Where it sticks, the
@@ -372,40 +396,15 @@ class SphereContact(Contact):
         object.__setattr__(self, "normal", unit_direction(self.frame, "normal", normal))
         check_given(self)
 
-    @property
-    def rows(self) -> slice:
-        """The three linear rows."""
-        return slice(3, 6)
-
     @cached_property
     def directions(self) -> Array:
         """The rows (ω, v) of the lowest point, at −r n from the centre."""
         down = -self.radius * np.array(self.normal)
         return readonly(np.concatenate([-cross_matrix(down), np.eye(3)], axis=1))
 
-    @cached_property
-    def placed(self) -> Array:
-        """The height alone."""
-        n = np.array(self.normal)
-        return readonly(np.concatenate([np.zeros((3, 3)), np.outer(n, n)], axis=1))
-
-    def axes(self, rotation: Array) -> Array:
-        """Return the axes of the world, turned the shortest way until z is the normal."""
-        return np.broadcast_to(normal_axes(self.normal), rotation.shape)
-
-    @property
-    def points(self) -> Array:
-        """The lowest point."""
-        return np.array([[0.0, 0.0, -self.radius]])
-
-    @property
-    def point_names(self) -> tuple[str, ...]:
-        """The frame's name."""
-        return (repr(self.frame),)
-
 
 @dataclass(frozen=True)
-class WheelContact(Contact):
+class WheelContact(_Rolling):
     """A knife edge on a plane: a coin, a disc, the wheel of a bicycle.
 
     It touches at the lowest point of its rim, at r m from the centre, where m is the direction down within the wheel:
@@ -471,11 +470,6 @@ class WheelContact(Contact):
             object.__setattr__(self, name, unit_direction(self.frame, name, given))
         check_given(self)
 
-    @property
-    def rows(self) -> slice:
-        """The three linear rows, of the point that touches."""
-        return slice(3, 6)
-
     def jacobian(self, model: Model, q: Array) -> Array:
         """Return the rows of J of the point that touches."""
         return self.kinematics(StateMotion.of(model, q, np.zeros(model.nv, q.dtype)))[1]
@@ -485,8 +479,8 @@ class WheelContact(Contact):
         n, a, upright, arm = self._wheel(rows.rotation)
         J = rows.J[..., 3:, :] - cross_matrix(arm) @ rows.J[..., :3, :]
         w = np.matvec(rows.J[..., :3, :], rows.v)
-        leans, turns = _dot(n, a), np.cross(w, a)  # n·a, and the rates of the axle and of n·a
-        rate = _dot(n, turns)
+        leans, turns = dot(n, a), np.cross(w, a)  # n·a, and the rates of the axle and of n·a
+        rate = dot(n, turns)
         moves = self.radius_as(a) * (rate * a + leans * turns) / upright - arm * (-leans * rate) / (upright * upright)
         bias = rows.bias[..., 3:] + np.cross(rows.bias[..., :3], arm) + np.cross(w, moves)
         return J, bias
@@ -496,29 +490,9 @@ class WheelContact(Contact):
         arm = self._wheel(T.rotation)[3]
         return SE3._trusted(T.rotation, T.translation + arm)
 
-    @cached_property
-    def placed(self) -> Array:
-        """The height alone."""
-        n = np.array(self.normal)
-        return readonly(np.concatenate([np.zeros((3, 3)), np.outer(n, n)], axis=1))
-
-    def axes(self, rotation: Array) -> Array:
-        """Return the axes of the world, turned the shortest way until z is the normal."""
-        return np.broadcast_to(normal_axes(self.normal), rotation.shape)
-
     def arms(self, rotation: Array) -> Array:
         """Return the lowest point of the rim."""
         return self._wheel(rotation)[3][..., None, :]
-
-    @property
-    def points(self) -> Array:
-        """The lowest point of the wheel where it stands upright."""
-        return np.array([[0.0, 0.0, -self.radius]])
-
-    @property
-    def point_names(self) -> tuple[str, ...]:
-        """The frame's name."""
-        return (repr(self.frame),)
 
     def radius_as(self, like: Array) -> Array:
         """Return the radius in the number type of an array."""
@@ -528,14 +502,14 @@ class WheelContact(Contact):
         """Return n and a, the sine of the angle between them, shape (..., 1), and r m, in the axes of the world."""
         n, a = (convert(np.array(way), rotation.dtype) for way in (self.normal, self.axis))
         a = np.matvec(rotation, a)
-        up = n - _dot(n, a) * a
-        upright = sqrt(_dot(up, up))
+        up = n - dot(n, a) * a
+        upright = sqrt(dot(up, up))
         if upright.dtype != object and not (np.abs(upright) > FLAT_SINE).all():
             where = at_first_index(np.abs(upright[..., 0]) <= FLAT_SINE)
             raise SingularError(f"contact {self.frame!r}: the wheel lies flat, and has no lowest point{where}")
         return n, a, upright, -self.radius_as(a) * up / upright
 
 
-def _dot(a: Array, b: Array) -> Array:
+def dot(a: Array, b: Array) -> Array:
     """Return a·b, shape (..., 1), of numbers of any kind."""
     return np.asarray((a * b).sum(axis=-1, keepdims=True))

@@ -22,6 +22,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array, resolution
+from ..contact.forward import largest
 from ..fast import aba, crba
 from ..fast.programs import cached_program
 from ..fast.quantities import Quantity
@@ -155,11 +156,6 @@ class Equation:
         defect = mu - between
         size = largest(self.p0) + largest(mu) + dt * (largest(force) + largest(tau) + self.weight)
         return defect, end, largest(defect) <= CONVERGED_ROUNDINGS * resolution(xi.dtype) * size
-
-
-def largest(x: Array) -> Array:
-    """Return the largest magnitude over the last axis."""
-    return np.asarray(np.abs(x).max(axis=-1, initial=0))
 
 
 def broyden(inverse: Array, x: Array, y: Array) -> Array:

@@ -10,7 +10,7 @@ from misstep.exercise import Output, Part
 from ...algorithms.aba import articulated_body
 from ..wrong import faulty
 from .project_rnea import tree_rnea
-from .project_trees import columns, pieces, previous, tree_of, trees, upward
+from .project_trees import columns, motions, previous, tree_of
 
 __all__ = ["ABA", "tree_aba"]
 
@@ -19,12 +19,6 @@ def tree_aba(parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) ->
     """Accelerations under joint forces."""
     no_wrench = [np.zeros((6, 1))] * len(parent)
     return articulated_body(tree_of(parent, S, I, X, a0), columns(qd), columns(tau), no_wrench).qdd
-
-
-def _loads(rng: Any) -> Any:
-    return [
-        (*lists, pieces(model, rng), pieces(model, rng), a0) for (model, *lists), a0 in zip(trees(rng), upward(rng))
-    ]
 
 
 def _back(answer: Any, parent: Any, S: Any, I: Any, X: Any, qd: Any, tau: Any, a0: Any) -> Any:
@@ -41,7 +35,7 @@ ABA = Part(
     beside=(tree_of, columns, articulated_body),
     rtol=1e-8,
     returns=(Output("q̈"),),
-    cases=_loads,
+    cases=motions,
     slips={
         "gravity-missing": _changed(("-tree.gravity", "0 * tree.gravity")),
         "gravity-sign": _changed(("-tree.gravity", "tree.gravity")),

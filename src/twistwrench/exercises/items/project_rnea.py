@@ -10,7 +10,7 @@ from misstep.exercise import Output, Part
 from ...algorithms.kinematics import motion
 from ...algorithms.rnea import newton_euler
 from ..wrong import faulty
-from .project_trees import columns, pieces, previous, tree_of, trees, upward, with_massless_link
+from .project_trees import columns, motions, pieces, previous, tree_of, trees, upward, with_massless_link
 
 __all__ = ["ENERGY", "RNEA", "tree_energy", "tree_rnea"]
 
@@ -39,12 +39,6 @@ def _without_a_mass(rng: Any) -> Any:
     return [(*lists, pieces(model, rng), pieces(model, rng), upward(rng)[0])]
 
 
-def _motions(rng: Any) -> Any:
-    return [
-        (*lists, pieces(model, rng), pieces(model, rng), a0) for (model, *lists), a0 in zip(trees(rng), upward(rng))
-    ]
-
-
 def _power(answer: Any, parent: Any, S: Any, I: Any, X: Any, qd: Any, qdd: Any, a0: Any) -> Any:
     """Return the power of the joint forces less that of what the bodies need: V·(I A), as V × V is zero."""
     no_wrench = [np.zeros((6, 1))] * len(parent)
@@ -65,7 +59,7 @@ RNEA = Part(
     solution=tree_rnea,
     beside=(tree_of, columns, newton_euler),
     returns=(Output("τ"),),
-    cases=_motions,
+    cases=motions,
     edges=_without_a_mass,
     slips={
         "gravity-missing": _changed(("-tree.gravity", "0 * tree.gravity")),

@@ -15,6 +15,7 @@ from ...spatial import motion_transform
 from ..public import mine
 from ..robots import robot
 from ..wrong import faulty, swap
+from .project_trees import previous
 
 __all__ = ["PLACEMENTS", "TWISTS", "WRENCHES", "body_placements", "body_twists", "carried_wrenches"]
 
@@ -42,11 +43,6 @@ def carried_wrenches(parent: Any, T: Any, F: Any) -> Any:
         _, X_star = transforms(T[i])
         carried[parent[i]] += X_star @ carried[i]
     return carried
-
-
-def _previous(parent: Any) -> Any:
-    """Return the parents that a chain would have."""
-    return tuple(range(-1, len(parent) - 1))
 
 
 def _steps_of_twists(answer: Any, parent: Any, T: Any, V_joint: Any) -> Any:
@@ -107,7 +103,7 @@ PLACEMENTS = Part(
     cases=lambda rng: [(parent, T) for parent, T, _ in _robots(rng)],
     slips={
         "composition-order": _changed(("T[parent[i]] @ T[i]", "T[i] @ T[parent[i]]")),
-        "chain-for-tree": lambda parent, T: body_placements(_previous(parent), T),
+        "chain-for-tree": lambda parent, T: body_placements(previous(parent), T),
         "translation-unrotated": _changed(("T[parent[i]] @ T[i]", "_added(T[parent[i]], T[i])")),
         "translation-dropped": _changed(("T[parent[i]] @ T[i]", "_unmoved(T[parent[i]], T[i])")),
         "inverse-transform": after(body_placements, np.linalg.inv),
@@ -136,7 +132,7 @@ TWISTS = Part(
         "own-transformed": faulty(body_twists, ("X @ V[parent[i]] + V_joint[i]", "X @ (V[parent[i]] + V_joint[i])")),
         "parents-joint-only": faulty(body_twists, ("V[parent[i]]", "V_joint[parent[i]]")),
         "twist-not-carried": lambda parent, T, V_joint: V_joint,
-        "chain-for-tree": lambda parent, T, V_joint: body_twists(_previous(parent), T, V_joint),
+        "chain-for-tree": lambda parent, T, V_joint: body_twists(previous(parent), T, V_joint),
         "swapped-halves": lambda parent, T, V_joint: _halves(body_twists(parent, T, V_joint)),
     },
     alike=(frozenset({"force-for-motion", "transpose-for-inverse"}),),  # X*(T⁻¹) is X(T)ᵀ
@@ -168,7 +164,7 @@ WRENCHES = Part(
         "force-sign": faulty(carried_wrenches, ("+=", "-=")),
         "own-share-only": faulty(carried_wrenches, ("range(len(parent) - 1, 0, -1)", "range(1, len(parent))")),
         "ground-left-out": after(carried_wrenches, lambda F: F * (np.arange(len(F)) > 0)[:, None]),
-        "chain-for-tree": lambda parent, T, F: carried_wrenches(_previous(parent), T, F),
+        "chain-for-tree": lambda parent, T, F: carried_wrenches(previous(parent), T, F),
         "swapped-halves": lambda parent, T, F: _halves(carried_wrenches(parent, T, F)),
     },
     alike=(frozenset({"inverse-transform", "transpose-for-dual"}),),  # X(T)ᵀ is X*(T⁻¹)

@@ -9,7 +9,7 @@ from ...model import Model, Tree, random_tree, tree_terms
 from ...model.tree import split
 from ..robots import robot
 
-__all__ = ["columns", "pieces", "previous", "tree_of", "trees", "upward", "with_massless_link"]
+__all__ = ["columns", "motions", "pieces", "previous", "tree_of", "trees", "upward", "with_massless_link"]
 
 
 def tree_of(parent: Any, S: Any, I: Any, X: Any, a0: Any) -> Tree:
@@ -55,6 +55,13 @@ def upward(rng: np.random.Generator) -> Any:
 def pieces(model: Model, rng: np.random.Generator) -> Any:
     """Return a random velocity, acceleration or torque, one array per joint."""
     return split(model, rng.standard_normal(model.nv))
+
+
+def motions(rng: np.random.Generator) -> Any:
+    """Return the trees, each with a velocity, an acceleration or torques, and the acceleration of the world."""
+    return [
+        (*lists, pieces(model, rng), pieces(model, rng), a0) for (model, *lists), a0 in zip(trees(rng), upward(rng))
+    ]
 
 
 def previous(parent: Any) -> Any:
