@@ -139,7 +139,7 @@ def as_drawable(value: ArrayLike, name: str, *tail: int) -> Array:
 
 
 def as_drawable_number(value: object, name: str) -> float:
-    """Return a number that is to be drawn: see `drawn`.
+    """Return a number that is to be drawn: see `as_drawable`.
 
     Examples
     --------
