@@ -10,7 +10,7 @@ import pytest
 
 import twistwrench as tw
 from twistwrench.errors import NameNotFound
-from twistwrench.exercises.asked import SECTIONS, Asked, questions
+from twistwrench.exercises.asking import SECTIONS, Asked, questions
 from twistwrench.exercises.questions.gaits import GAITS, move
 
 ALL = {name: question for section in SECTIONS for name, question in questions(section).items()}

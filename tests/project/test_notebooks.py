@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises.asked import questions
+from twistwrench.exercises.asking import questions
 from twistwrench.exercises.chapter import COURSE
 
 nbformat = pytest.importorskip("nbformat", reason="nbformat is not installed: the notebooks are not checked")

@@ -20,8 +20,7 @@ field      what is taken for each other
 forbidden  what the texts rule out
 chapter    `COURSE`: the sections, and all of the above
 questions  a room: what the notebooks ask before they show
-asked      a question, and the verdict on a guess
-asking     `ask`, which judges a guess
+asking     `ask`: a question of a notebook, and the verdict on a guess
 pencil     ten questions to each section for paper and pencil
 public     the functions of this page
 items      a room: the exercises
@@ -37,7 +36,7 @@ commands   ``twistwrench exercises``
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .asked import Asked
+    from .asking import Asked
     from .public import Checked, Status, case, check, hint, mine, solution, start, status
 
 __all__ = ["Asked", "Checked", "Status", "case", "check", "hint", "mine", "solution", "start", "status"]
@@ -46,6 +45,6 @@ __all__ = ["Asked", "Checked", "Status", "case", "check", "hint", "mine", "solut
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from . import asked, public
+    from . import asking, public
 
-    return getattr(asked if name in asked.__all__ else public, name)
+    return getattr(asking if name in asking.__all__ else public, name)
