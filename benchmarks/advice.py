@@ -177,7 +177,7 @@ def _cells(found: dict[str, Any]) -> Iterator[tuple[str, str, str]]:
                 yield line, robot, _cell(row)
             told = [row for row in rows.values() if "found" in row]
             kept, states = (sum(row[name] for row in told) for name in ("below the promise", "states"))
-            yield line, "new states below the promise", f"{kept} of {states}"
+            yield line, "new states below the promise", f"{kept}/{states}"
 
 
 def _cell(row: dict[str, Any]) -> str:

@@ -78,7 +78,7 @@ def _top() -> Motion:
 def _go2() -> Motion:
     model = tw.load("go2")
     v = np.random.default_rng(38).standard_normal(18)
-    return Motion(model, model.standing(), v, 0.3, 0.01, 0.06)
+    return Motion(model, model.standing(), v, 0.2, 0.01, 0.1)
 
 
 def _arm() -> Motion:
