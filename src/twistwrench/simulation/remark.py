@@ -37,8 +37,8 @@ class Remark(NamedTuple):
         of a joint, "alternates" of one whose velocity changes its way in each step, by more and more; "lift-off",
         "slide" of a contact on a ground, and "coulomb" where no forces were found that fulfil Coulomb's law to 1e-3 of
         the fastest point; "energy" where a robot on a ground has more than it had before and its motors put in, by 2 %
-        of all that moved; "damping", "friction" of a joint that moves, which only time stepping applies; the value is
-        the largest that was left out.
+        of all that moved and ½ m g v dt; "damping", "friction" of a joint that moves, which only time stepping applies;
+        the value is the largest that was left out.
     name : str
         Of the frame of the contact, the joint, or the robot.
     value, limit : float
