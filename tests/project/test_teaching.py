@@ -10,8 +10,8 @@ import nbformat
 import pytest
 
 import twistwrench as tw
-from twistwrench.exercises.asked import SECTIONS as ASKED
-from twistwrench.exercises.asked import questions
+from twistwrench.exercises.asking import SECTIONS as ASKED
+from twistwrench.exercises.asking import questions
 from twistwrench.exercises.pencil import SECTIONS
 
 from ..pages import DOCS, FENCE, names_author_and_licence, page
