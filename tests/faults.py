@@ -315,7 +315,7 @@ FAULTS = [
         "a = A[..., 3:] +",
     ),
     Fault("distance: the line does not turn", "contact/closures.py", "+ dot(across, across) / d", "+ 0 * d"),
-    Fault("distance: all of the rate turns it", "contact/closures.py", "rate - n * _dot(n, rate)", "rate"),
+    Fault("distance: all of the rate turns it", "contact/closures.py", "rate - n * dot(n, rate)", "rate"),
     Fault("loop: what holds the frame does not turn", "contact/relative.py", "bias = bias - turning", "bias = bias"),
     step(
         "J_c: the angular rows",
