@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .calls import value_of_reference
 from .compare import values
 from .course import Course
 from .domains import Domain
@@ -114,8 +115,7 @@ def _quaternion(angle: float) -> Any:
 def _answered(part: Part, arguments: Arguments) -> bool:
     """Whether the reference has an answer there: it may divide by what is zero."""
     try:
-        with np.errstate(all="ignore"):
-            found = values(part.value(part.solution, arguments), part.returns)
+        found = values(value_of_reference(part, arguments), part.returns)
     except (ArithmeticError, LookupError, ValueError):
         return False
     return found is not None and all(x.array is None or np.isfinite(x.array).all() for x in found)

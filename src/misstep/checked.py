@@ -21,6 +21,10 @@ STATES: dict[State, Text] = {
     "to do": Text("to do", "未做"),
 }
 
+NOTED = Text("noted", "已收到")
+IN_WORDS = Text("your words", "文字作答")
+LATER = Text("The model answer comes once the functions are right.", "函数都写对之后，给出参考答案供对照。")
+
 
 @dataclass(frozen=True, repr=False)
 class Checked:
@@ -33,6 +37,9 @@ class Checked:
         From the name of each function, and ``"words"``, to its verdict.
     words : str, optional
         The answer in words.
+    are_functions_right : bool
+        Whether all functions of the exercise are right, also those that were checked before. The answer in words is
+        never judged; the model answer stands beside it once they are.
     language : {"en", "zh"}
     progress : str
         How much of the section has been checked and is right, as a line.
@@ -55,6 +62,7 @@ class Checked:
     max_level: int = LEVELS[-1]
     hints: Mapping[str, int] = field(default_factory=dict)
     solution: bool = False
+    are_functions_right: bool = False
 
     @property
     def functions(self) -> dict[str, Verdict]:
@@ -63,8 +71,8 @@ class Checked:
 
     @property
     def right(self) -> bool:
-        """Whether everything that was checked is right."""
-        return self.state == "done"
+        """Whether all functions that were checked are right; words alone never are."""
+        return bool(self.functions) and self.state == "done"
 
     @property
     def points(self) -> float:
@@ -85,19 +93,26 @@ class Checked:
     def line(self, name: str) -> str:
         """Return the state of a function that is not wrong as a line."""
         verdict = self.verdicts[name]
-        state = Text("to do", "未做") if verdict.state == "to do" else Text("right", "正确")
-        head = say("{id}  {name}: {state}.", "{id}  {name}：{state}。", id=self.exercise.id, name=name, state=state)
-        return "  ".join(line.of(self.language) for line in (head, *verdict.lines))
+        state = Text("to do", "未做") if verdict.state == "to do" else NOTED if name == WORDS else Text("right", "正确")
+        title = IN_WORDS if name == WORDS else name
+        head = say("{id}  {name}: {state}.", "{id}  {name}：{state}。", id=self.exercise.id, name=title, state=state)
+        later = [LATER] if state is NOTED and self.exercise.answer is not None and self.model_answer is None else []
+        return "  ".join(line.of(self.language) for line in (head, *verdict.lines, *later))
+
+    @property
+    def model_answer(self) -> Text | None:
+        """The model answer to compare with; none before there are words, and all functions are right."""
+        return self.exercise.answer if self.words and self.are_functions_right else None
 
     def __repr__(self) -> str:
         lines: list[str] = []
         for name, verdict in self.verdicts.items():
             is_wrong = verdict.state == "wrong"
             lines += [verdict.report(self.language, self.level) if is_wrong else self.line(name), ""]
-        if self.words and self.exercise.answer is not None:
+        if self.model_answer is not None:
             head = "{id}  Your words, to compare with the model answer:", "{id}  请把你的回答与参考答案对照："
             lines += [say(*head, id=self.exercise.id).of(self.language)]
-            lines += [*wrapped(self.exercise.answer.of(self.language)), ""]
+            lines += [*wrapped(self.model_answer.of(self.language)), ""]
         return "\n".join([*lines, self.progress])
 
     def _repr_html_(self) -> str:
@@ -134,11 +149,11 @@ def checked_html(checked: Checked, *, hints: bool = True) -> str:
         if hints and verdict.state != "done" and name != WORDS:
             every, told = ladder(exercise.part(name), verdict, checked.max_level), verdict.stages(checked.level)
             shown += _hints([x for x in every if x not in told], language)
-        kind = {"done": "right", "wrong": "wrong", "to do": "to-do"}[verdict.state]
+        kind = {"done": "to-do" if name == WORDS else "right", "wrong": "wrong", "to do": "to-do"}[verdict.state]
         parts.append(f'<div class="tw-{kind}">{shown}</div>')
-    if checked.words and exercise.answer is not None:
+    if checked.words and checked.model_answer is not None:
         style = "vertical-align: top; text-align: left; width: 50%"
-        texts = (checked.words, exercise.answer.of(language))
+        texts = (checked.words, checked.model_answer.of(language))
         cells = "".join(f'<td style="{style}"><pre>{escape(text.strip())}</pre></td>' for text in texts)
         parts.append(f'<p>{COMPARE.of(language)}</p><table style="width: 100%"><tr>{cells}</tr></table>')
     return "\n".join([*parts, f"<p>{escape(checked.progress)}</p></div>"])

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,8 +13,8 @@ from numpy.typing import NDArray
 from .exercise import Output, Part
 
 __all__ = [
-    *("FLOOR", "Array", "Value", "agree", "close", "copied_results", "differing", "is_one_array"),
-    *("plain", "to_do", "unchanged", "values"),
+    *("FLOOR", "Array", "Value", "agree", "close", "copied_results", "differing", "is_list_for_array"),
+    *("is_one_array", "plain", "to_do", "unchanged", "unwarned", "values"),
 ]
 
 Array = NDArray[Any]
@@ -108,11 +110,18 @@ def _array(x: Any) -> Array | None:
 
 
 def close(a: Value, b: Value, rtol: float) -> bool:
-    """Whether two values are the same, to a part of the largest entry of the second."""
+    """Whether two values are the same, to a part of the largest entry of the second; a list is no array."""
+    if is_list_for_array(a, b):
+        return False
     if a.array is None or b.array is None:
         return isinstance(a.raw, str) and isinstance(b.raw, str) and a.raw.strip() == b.raw.strip()
     same_kind = (a.array.dtype.kind == "b") == (b.array.dtype.kind == "b")
     return same_kind and a.array.shape == b.array.shape and not differing(a.array, b.array, rtol).any()
+
+
+def is_list_for_array(a: Value, b: Value) -> bool:
+    """Whether the first is a list where the second is an array: other functions compute with it."""
+    return isinstance(a.raw, list | tuple) and isinstance(b.raw, np.ndarray)
 
 
 def differing(a: Array, b: Array, rtol: float) -> Array:
@@ -129,7 +138,8 @@ def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bo
     if part.canonical is not None:
         canonical: Callable[..., Any] = part.canonical
         try:
-            first, second = canonical(first, *arguments), canonical(second, *arguments)
+            with unwarned():
+                first, second = canonical(first, *arguments), canonical(second, *arguments)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
             return False
         returns: Sequence[Output] = [Output("")] * (len(second) if isinstance(second, tuple) else 1)
@@ -137,6 +147,14 @@ def agree(part: Part, first: Any, second: Any, arguments: tuple[Any, ...]) -> bo
         returns = part.returns
     a, b = values(first, returns), values(second, returns)
     return a is not None and b is not None and all(close(x, y, part.rtol) for x, y in zip(a, b))
+
+
+@contextmanager
+def unwarned() -> Iterator[None]:
+    """Drop the warnings of Python and NumPy in a block; those of a student's own code stay outside of it."""
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
+        yield
 
 
 def is_one_array(answer: Any) -> bool:

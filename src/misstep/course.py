@@ -18,13 +18,33 @@ from .domains import Domain
 from .errors import UnknownName, check_known
 from .exercise import Exercise, Part
 from .rules import Rules
-from .text import Text
+from .text import Language, Text
+from .verdict import Verdict
 
-__all__ = ["Course"]
+__all__ = ["Course", "Session"]
 
 NO_RULES, EMPTY = Rules(), Text("", "")
 
 SpecialCases = Callable[[Part, tuple[Any, ...], np.random.Generator], Sequence[tuple[Any, ...]]]
+
+
+@dataclass
+class Session:
+    """What was checked in this process outside of any folder, as in a notebook.
+
+    Attributes
+    ----------
+    language : str, optional
+        The language that was asked for last.
+    verdicts : dict
+        From the name of a function to the last verdict on it.
+    hints : dict
+        From the name of a function to what stands for each of its hints that was shown.
+    """
+
+    language: Language | None = None
+    verdicts: dict[str, Verdict] = dataclass_field(default_factory=dict)
+    hints: dict[str, list[str]] = dataclass_field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -61,6 +81,8 @@ class Course:
         From a section to its title as it stands there.
     unknown : type
         The error that a name raises which is not known.
+    session : Session
+        What was checked in this process.
     """
 
     module: str
@@ -79,6 +101,7 @@ class Course:
     opening: Text = EMPTY
     title_of: Callable[[str], Text] | None = None
     unknown: type[Exception] = UnknownName
+    session: Session = dataclass_field(default_factory=Session)
 
     @property
     def package_name(self) -> str:
@@ -109,12 +132,21 @@ class Course:
         return {}
 
     def exercise(self, number: str) -> Exercise:
-        """Return an exercise by its number; the error where there is none lists the nearest."""
+        """Return an exercise by its number, 49.3.1 or 49_3_1; the error where there is none lists the nearest."""
+        number = self.dotted(number)
+        if number in self.sections:
+            every = ", ".join(x for x in self.numbers if x.rpartition(".")[0] == number)
+            raise self.unknown(f"{number} is a section: name one of its exercises, {every}")
         check_known("exercise", number, self.numbers, self.unknown)
         if number not in self._exercises:
             found = import_module(f"{self.items}.ex_{number.replace('.', '_')}").EXERCISE
             self._exercises[number] = replace(found, course=self)
         return self._exercises[number]
+
+    def dotted(self, number: str) -> str:
+        """Return the number of an exercise or a section as it is, where it is written as in the name of a test."""
+        found = str(number).removeprefix("ex_").replace("_", ".")
+        return found if found in self.numbers or found in self.sections else number
 
     @property
     def exercises(self) -> list[Exercise]:
@@ -127,6 +159,7 @@ class Course:
 
     def asked_for(self, name: str) -> Exercise:
         """Return an exercise by its number, or by the name of one of its functions."""
+        name = self.dotted(name)
         is_number = name in self.numbers or name[:1].isdigit() or name.startswith(tuple(self.sections))
         return self.exercise(name) if is_number else self.find_part(name)[0]
 

@@ -49,7 +49,6 @@ KINDS = {
     "order": Text("order", "顺序"),
     "sign": Text("sign", "符号"),
     "turn": Text("transpose or inverse", "转置或求逆"),
-    "drop": Text("a term or a call", "某一项或某次调用"),
     "name": Text("another quantity", "用错了量"),
     "index": Text("index", "下标"),
     "number": Text("number", "数值"),
@@ -58,13 +57,16 @@ KINDS = {
 }
 """What kind of slip an edit undoes, by its rule."""
 
+SURPLUS = Text("something too much", "多写了一项或一步运算")
+MISSING = Text("something missing", "漏了一项或一步运算")
+
 KIND = Text("Kind of slip: {kinds}.", "错误类型：{kinds}。")
 LOOK = Text("Look at {lines}.", "请看{lines}。")
-ANY = Text("Your numbers fit any of these slips:", "你的数值等于犯下以下任一错误的结果：")
+ANY = Text("Your numbers fit any of these slips:", "你的数值正好符合以下任一错误：")
 OWN = Text("Line {line}: with {edit}, it is right{cases}.", "第 {line} 行：{edit}，{cases}就正确。")
 OWN_ANY = Text("Each of these changes alone makes it right{cases}:", "下列改动任取其一，{cases}就正确：")
 REFERENCE = Text(
-    "Your numbers are those of a right solution that has {edit}.", "你的数值等于把正确解法如此改动：{edit}。"
+    "Your numbers are those of a right solution that has {edit}.", "你的数值正好等于正确解法作如下改动的结果：{edit}。"
 )
 EXCHANGED = Text("{first} and {second} are exchanged.", "{first} 与 {second} 互换了。")
 BROKEN = Text("This holds for every right answer, but not for yours: {x}", "正确答案都满足而你的不满足：{x}")
@@ -217,7 +219,7 @@ class _Diagnoser:
         names = [x.slip for x in self.listed.whole]
         if not names:
             return None
-        lines = [say("Your numbers fit this slip: {x}", "你的数值等于犯下这个错误的结果：{x}", x=self._slip(names[0]))]
+        lines = [say("Your numbers fit this slip: {x}", "你的数值正好符合这种错误：{x}", x=self._slip(names[0]))]
         if len(names) > 1:
             lines = [ANY, *(say("  - {x}", "  - {x}", x=self._slip(name)) for name in names[:MAX_NAMED])]
         edit = next((x.edit for x in self.own.whole if x.edit and _is_plain(x.edit)), None)
@@ -252,7 +254,7 @@ class _Diagnoser:
     def _of_result(self, hypothesis: Hypothesis) -> Text:
         if hypothesis.edit is None:
             return self._slip(hypothesis.slip)
-        text = Text("that of a right solution that has {edit}.", "等于把正确解法如此改动的结果：{edit}。")
+        text = Text("that of a right solution that has {edit}.", "正好等于正确解法作如下改动的结果：{edit}。")
         if hypothesis.origin == "own":
             text = Text("line {line}, {edit} makes it right.", "第 {line} 行，{edit}，就正确。")
         return text.fill(line=hypothesis.edit.line, edit=edit_text(hypothesis.edit))
@@ -280,35 +282,48 @@ class _Diagnoser:
 
     def _explained(self, how: How, found: Sequence[Hypothesis], **more: Sequence[Any]) -> Verdict:
         """Return a verdict that begins with where the answer is wrong and what kind of slip it is."""
-        kinds = [self.field.slips[x.slip].kind if x.edit is None else KINDS[x.edit.rule] for x in found[:MAX_NAMED]]
-        each = dict.fromkeys(kinds)
+        each = dict.fromkeys(map(self._kind, found[:MAX_NAMED]))
         kind = KIND.fill(kinds=Text(", ".join(x.en for x in each), "、".join(x.zh for x in each)))
-        return _wrong(how, *self._where(), kind, **{name: tuple(lines) for name, lines in more.items()})
+        where, is_shown = self._where(), how != "slip" and self._structure is not None  # that says more than the kind
+        return _wrong(how, *where, *[kind] * (not is_shown), **{name: tuple(lines) for name, lines in more.items()})
+
+    def _kind(self, found: Hypothesis) -> Text:
+        """Return what kind of slip was found; an edit that leaves something out says where it is too much."""
+        if found.edit is None:
+            return self.field.slips[found.slip].kind
+        return KINDS.get(found.edit.rule) or (SURPLUS if found.origin == "own" else MISSING)
+
+    @property
+    def _structure(self) -> Text | None:
+        """What shows without numbers; nothing where it raised an error."""
+        evidence = self.evidence
+        if evidence.answers[evidence.shown] is None:
+            return None
+        return structure(self.part, evidence.answers, evidence.right)
 
     def _where(self) -> list[Text]:
         """Return where the first wrong answer differs, unless it has nothing to compare, or others would be right."""
         evidence = self.evidence
-        answer, right = evidence.answers[evidence.first], evidence.right[evidence.first]
+        answer, right = evidence.answers[evidence.shown], evidence.right[evidence.shown]
         if answer is None or self.part.canonical is not None:
             return []
-        found = structure(self.part, evidence.answers, evidence.right)
+        found = self._structure
         return [found] if found else differences(self.part, answer, right)[0][:MAX_LINES]
 
     def _located(self) -> Verdict:
         """Where it goes wrong, and how the numbers differ."""
-        evidence = self.evidence
-        line, first = None, evidence.first
+        evidence, line = self.evidence, None
         if self.listing is not None:
-            line = first_wrong_line(self.listing, evidence.cases[first], self.solutions)
-        shown, telling = differences(self.part, evidence.answers[first], evidence.right[first])
+            line = first_wrong_line(self.listing, evidence.cases[evidence.first], self.solutions)
+        shown, telling = differences(self.part, evidence.answers[evidence.shown], evidence.right[evidence.shown])
         broken, help = [*self._broken_properties()][:1], (line,) if line else ()
         how: How = "located" if broken or help or telling else "numbers"
         return _wrong(how, *broken, *shown[:MAX_LINES], help=help)
 
     def _broken_properties(self) -> Iterator[Text]:
         """Yield the properties of right answers that the first wrong one lacks."""
-        answer, right = (x[self.evidence.first] for x in (self.evidence.answers, self.evidence.right))
-        arguments = self.evidence.cases[self.evidence.first]
+        evidence = self.evidence
+        answer, right, arguments = (x[evidence.shown] for x in (evidence.answers, evidence.right, evidence.cases))
         shapes = [[np.shape(x.raw) for x in values(y, self.part.returns) or []] for y in (answer, right)]
         for item in self.part.properties if shapes[0] == shapes[1] else ():
             try:

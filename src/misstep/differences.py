@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .compare import FLOOR, Array, Value, values
+from .compare import FLOOR, Array, Value, is_list_for_array, values
 from .exercise import Part
 from .listing import Listing, equal, text_of
 from .text import Text, say
@@ -16,7 +16,7 @@ from .text import Text, say
 __all__ = ["differences", "first_wrong_line", "structure"]
 
 MAX_LISTED = 3  # wrong entries that are listed
-NEARLY = 5e-3  # relative error of an answer of which some digits are right
+NEARLY = 1e-4  # relative error of an answer that is right but for its digits; a term left out may be as small as 1e-3
 TRACE_RTOL = 1e-9
 
 NO_RETURN = Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`？")
@@ -26,8 +26,16 @@ SOMETIMES_NONE = Text(
 COUNT = Text("It must return {n} things: {names}. It returned {got}.", "应返回 {n} 个量：{names}。实际返回 {got}。")
 FIXED_SIZE = Text("{name} has the shape {shape} in all cases.", "在所有情形中 {name} 的形状都是 {shape}。")
 TYPE = Text("{name} must be {what}, not {got}.", "{name} 应为{what}，而不是 {got}。")
+NO_ARRAY = Text(
+    "{name} must be an array, not a {got}: return `np.array(...)`, or `np.block(...)` where it is made of blocks.",
+    "{name} 应为数组，而不是 {got}：请返回 `np.array(...)`；由分块组成的用 `np.block(...)`。",
+)
 SHAPE = Text("{name} has the shape {got}; it must be {right}.", "{name} 的形状是 {got}，应为 {right}。")
 NOT_FINITE = Text("{name} has entries that are not finite numbers.", "{name} 含有不是有限数的元素。")
+CUT_OFF = Text(
+    "whole numbers, as an array of integers drops what stands after the point: make it with `dtype=float`",
+    "只有整数部分：整数数组存不下小数，请用 `dtype=float` 创建数组",
+)
 FIRST_LINE = Text(
     "Look at line {line}, `{text}`: what it uses occurs in a right solution, what it computes does not.",
     "请看第 {line} 行 `{text}`：它用到的值在正确解法中都有，它算出的值却没有。",
@@ -61,6 +69,8 @@ def structure(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text 
 def _uncomparable(got: Value, right: Value) -> Text | None:
     """Report another type or another shape, or numbers that are not finite."""
     name, a, b = got.output.title, got.array, right.array
+    if is_list_for_array(got, right):
+        return NO_ARRAY.fill(name=name, got=type(got.raw).__name__)
     kinds = ["s" if isinstance(x.raw, str) else "" if x.array is None else x.array.dtype.kind for x in (got, right)]
     wanted = {"s": Text("a string", "字符串"), "b": Text("True or False", "True 或 False")}
     if not kinds[0] or (kinds[0] != kinds[1] and {*kinds} & wanted.keys()):
@@ -97,6 +107,8 @@ def _of_value(got: Value, right: Value, rtol: float) -> tuple[list[Text], bool]:
     within = rtol * np.abs(b[np.isfinite(b)]).max(initial=FLOOR)
     if _same(a, b, within):
         return [], False
+    if isinstance(got.raw, np.ndarray) and got.raw.dtype.kind in "iu" and np.array_equal(a, np.trunc(b)):
+        return [_line(name, CUT_OFF)], True
     relation, tells = _relation(a, b, within)
     lines, some_right = [], False
     for block, index in got.output.layout.blocks(b.shape) if not tells else ():

@@ -48,7 +48,16 @@ def _joined(names: list[Text], axes: int) -> Text:
         return Text(english, f"{names[0].zh} 各{zh}")
     rows, columns = names
     column = "column" if columns.en.startswith("3 ") else "columns"
-    return Text(f"the block of rows {rows.en}, {column} {columns.en}", f"{rows.zh} 行 {columns.zh} 列的块")
+    return Text(
+        f"the block of rows {rows.en}, {column} {columns.en}",
+        f"{_lines_zh(rows.zh, '行')}、{_lines_zh(columns.zh, '列')}的块",
+    )
+
+
+def _lines_zh(name: str, line: str) -> str:
+    """Name rows or columns in Chinese: numbers are counted, and a name in brackets comes last."""
+    number, bracket, rest = name.partition("（")
+    return f"第 {number} {line}{bracket}{rest}" if number[:1].isdigit() else f"{name} {line}"
 
 
 PLAIN = Layout()
@@ -225,6 +234,8 @@ class Exercise(_Written):
     parts : tuple of Part
     uses : tuple of str
         Functions of earlier exercises that the skeleton offers through `mine`.
+    taught : str
+        The section that teaches what it asks for, where that is not its own.
     needs : str
         A package without which it cannot be done, and stays to do; empty for none.
     course : Course
@@ -235,6 +246,7 @@ class Exercise(_Written):
     kind: Kind
     parts: tuple[Part, ...]
     uses: tuple[str, ...] = field(default=())
+    taught: str = ""
     needs: str = ""
     course: Any = None
 

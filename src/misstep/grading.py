@@ -98,6 +98,7 @@ def grade(
     """
     if jobs is not None and jobs < 1:
         raise CourseError(f"jobs: expected a whole number, 1 or more, got {jobs}")
+    only = [course.dotted(number) for number in only]
     for number in only:
         check_known("exercise or section", number, (*course.sections, *course.numbers), course.unknown)
     exercises = [e for e in course.exercises if not only or e.id in only or e.section in only]

@@ -15,8 +15,8 @@ from .workbook import Workbook, checksum
 __all__ = ["hint", "solution"]
 
 LAST = Text(
-    "That was the last one. The solution: {command} solution {id}",
-    "提示已全部给出。查看解答：{command} solution {id}",
+    "That was the last one. The solution: {call}",
+    "提示已全部给出。查看解答：{call}",
 )
 FORGOTTEN = Text(
     "Asked in the folder of your answers (or with --dir), the next one comes the next time; --all shows all.",
@@ -26,6 +26,9 @@ LATER = Text(
     "The model answer is shown once yours is written: fill in {name}.",
     "写下你自己的回答（填写 {name}）之后才显示参考答案。",
 )
+
+
+TO_DO = Verdict("to do")
 
 
 class Shown(str):
@@ -49,20 +52,28 @@ def hint(
     """Return the next hint for a function, or the last one again. Which were given is remembered in the folder.
 
     Of a wrong answer the first says which slip it is, and the last what to write instead. An exercise stands for the
-    first of its functions that is not right.
+    first of its functions that is wrong, or else is not right yet. What is not wrong in the folder may be so where it
+    was checked last, as in a notebook.
     """
-    exercise = course.asked_for(name)
-    with opened(course, folder, language=language) as book:
-        parts = exercise.parts if name == exercise.id else (exercise.part(name),)
-        found = [(part, book.verdict(exercise, part)) for part in parts] if book.is_started else []
-        part, verdict = next((x for x in found if x[1].state != "done"), (parts[0], Verdict("to do")))
+    exercise, session = course.asked_for(name), course.session
+    with opened(course, folder, language=language or session.language) as book:
+        parts = [part for part in exercise.parts if part.name == name] or exercise.parts
+        found = []
+        for part in parts:
+            verdict = book.verdict(exercise, part) if book.is_started else TO_DO
+            found.append((part, verdict if verdict.state == "wrong" else session.verdicts.get(part.name, verdict)))
+        states = [verdict.state for _, verdict in found]
+        part, verdict = found[next((states.index(x) for x in ("wrong", "to do") if x in states), 0)]
         texts, language = ladder(part, verdict, book.max_level), book.language
-        shown = book.state["hints"].get(part.name, ())
+        was_checked = part.name in session.verdicts
+        shown = [*book.state["hints"].get(part.name, ()), *session.hints.get(part.name, ())]
         given = [k for k, text in enumerate(texts) if checksum(text) in shown]
         others = [k for k in range(len(texts)) if k not in given]
         following = given[-1:] if again and given else others[:1] or given[-1:]
         chosen = range(len(texts)) if every else following
-        is_remembered = book.remember_hints(exercise, part, [texts[k] for k in chosen])
+        is_remembered = book.remember_hints(exercise, part, [texts[k] for k in chosen]) or was_checked
+        if was_checked:
+            session.hints.setdefault(part.name, []).extend(checksum(texts[k]) for k in chosen)
     lines: list[str] = []
     for k in chosen:
         title = say(
@@ -75,7 +86,8 @@ def hint(
         )
         lines += [title.of(language), "", *wrapped(texts[k].of(language)), ""]
     if not chosen or chosen[-1] == len(texts) - 1:
-        lines.append(LAST.fill(id=exercise.id, command=course.command).of(language))
+        in_python, in_shell = f'{course.call}.solution("{exercise.id}")', f"{course.command} solution {exercise.id}"
+        lines.append(LAST.fill(call=in_python if was_checked else in_shell).of(language))
     elif not is_remembered:
         lines.append(FORGOTTEN.of(language))
     return Shown("\n".join(lines).rstrip("\n"))
@@ -86,7 +98,7 @@ def solution(course: Course, name: str, folder: str | PathLike[str] = ".", *, la
 
     It includes the model answer to a question in words once the student has answered it.
     """
-    exercise, book = course.asked_for(name), Workbook(course, folder, language=language)
+    exercise, book = course.asked_for(name), Workbook(course, folder, language=language or course.session.language)
     number, language = exercise.id, book.language
     book.remember_shown(exercise.section, solutions=sorted({*book.state["solutions"], number}))
     head = say("{id} {title}: a solution", "{id} {title}：参考解答", id=number, title=exercise.title)

@@ -16,7 +16,7 @@ from .cases import cases
 from .course import Course
 from .errors import CourseError
 from .exercise import Exercise, Part
-from .judge import ENDLESS, at_line
+from .judge import ENDLESS, at_line, more
 from .process import Died, Process
 from .rules import is_ours
 from .text import Language, Text, say
@@ -140,7 +140,9 @@ class _Isolated(Workbook):
         exercise, part = self.course.find_part(str(died.at))
         tried = cases(part, self.seed)
         k = min(max(died.call, 0), len(tried) - 1)  # further calls look for what is wrong
-        return headed(exercise, part, *lines, case=failing_case(exercise, part, k, self.seed, tried[k]))
+        return headed(
+            exercise, part, *lines, case=failing_case(exercise, part, k, self.seed, tried[k]), more=more(exercise, part)
+        )
 
     def _explained(self, died: Died) -> list[Text]:
         """Return why the process ended, and at which line of the student's."""

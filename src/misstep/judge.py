@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .calls import TooLong, copied, shown
+from .calls import TooLong, copied, shown, value_of_reference
 from .cases import cases, every_case, further_cases, special_cases
 from .compare import agree, copied_results, is_one_array, plain, to_do, unchanged
 from .diagnose import diagnose
@@ -24,7 +24,7 @@ from .search import Arguments
 from .text import Text, say
 from .verdict import Case, Verdict, failing_case, headed
 
-__all__ = ["ENDLESS", "at_line", "judge"]
+__all__ = ["ASK", "ENDLESS", "at_line", "judge", "more"]
 
 Function = Callable[..., Any]
 Watch = Callable[[], AbstractContextManager[object]]
@@ -32,6 +32,14 @@ Watch = Callable[[], AbstractContextManager[object]]
 ENDLESS = Text("It did not finish in {s:g} s: a loop that never ends?", "{s:g} 秒内没有结束：是不是死循环？")
 NEEDS = Text("It needs the package {name}, which is not installed here.", "需要 {name}，此处没有安装。")
 CHANGED = Text("It changes its argument `{name}`: work on a copy.", "它修改了参数 `{name}`：请在副本上运算。")
+COPY = Text(
+    "Begin with `{name} = np.array({name}, dtype=float)`: a copy, which also holds what stands after the point.",
+    "函数开头先写 `{name} = np.array({name}, dtype=float)`：这是副本，也存得下小数。",
+)
+COPY_OF_LIST = Text(
+    "Begin with `{name} = copy.deepcopy({name})`: a copy of the list and of what is in it.",
+    "函数开头先写 `{name} = copy.deepcopy({name})`：列表及其元素都是副本。",
+)
 CHANGED_TERM = Text(
     "A sum or a difference changes one of its terms. Make a new array: `a + b` does, `a += b` changes that of `a`.",
     "求和或求差时改变了其中一个操作数。请新建数组：`a + b` 会新建，`a += b` 改变的是 `a` 的数组。",
@@ -112,7 +120,7 @@ class _Trial:
         self.answers: list[Any] = []
         self.expected: list[Any] = []
         self.right: list[bool] = []
-        self.changes: dict[int, Text] = {}  # by case: which argument is changed
+        self.changes: dict[int, str] = {}  # by case: which argument is changed
 
     def verdict(self) -> Verdict:
         """Try the function in all cases, and report what is wrong."""
@@ -120,7 +128,7 @@ class _Trial:
             return self._verdict()
         except TooLong as late:
             self.tried.append(self.current)
-            return self._headed(*_Raised(late).lines(), case=self._case(-1), how="located")
+            return self._headed(*_Raised(late).lines(), case=self._case(-1), how="located", more=self._more())
 
     def _verdict(self) -> Verdict:
         broken = broken_rules(self.course.rules, self.part, self.function)  # before anything is run
@@ -155,16 +163,15 @@ class _Trial:
             return Verdict("to do")
         changed = [name for name, x, y in zip(self.part.names, arguments, given) if not unchanged(x, y)]
         if changed:
-            is_class = inspect.isclass(self.part.solution)
-            self.changes[len(self.tried)] = CHANGED_TERM if is_class else CHANGED.fill(name=changed[0])
-        right = self.part.value(self.part.solution, kept)
+            self.changes[len(self.tried)] = changed[0]
+        right = value_of_reference(self.part, kept)
         self.tried.append(arguments)
         self.answers.append(answer)
         self.expected.append(right)
         self.right.append(agree(self.part, answer, right, arguments))
-        if self.right[-1] or agree(self.part, self.part.value(self.part.solution, arguments), right, arguments):
+        if self.right[-1] or agree(self.part, value_of_reference(self.part, arguments), right, arguments):
             return None
-        return self._headed(CHANGED.fill(name=self.part.names[0]), case=self._case(-1))
+        return self._changed(len(self.tried) - 1, self.part.names[0])
 
     def _run(self, arguments: Arguments) -> tuple[Any, Arguments]:
         """Call the function on copies of the arguments; return its answer, and what has become of them."""
@@ -186,18 +193,17 @@ class _Trial:
             if found.how == "line":
                 shown = {"help": found.help, "cure": found.cure, "more": self._more()}
                 return self._headed(*lines, *found.lines, case=self._case(-1), how="line", **shown)
-        return self._headed(*lines, case=self._case(-1), how="located")
+        return self._headed(*lines, case=self._case(-1), how="located", more=self._more())
 
     def _judged(self, broken: Sequence[Text]) -> Verdict:
         """Return the verdict on a function that has given answers: what is wrong comes before what is forbidden."""
         k = 0 if all(self.right) else self.right.index(False)
-        changes = list(self.changes.values())[:1]
+        if self.changes:  # what is wrong besides may come of it
+            return self._changed(*min(self.changes.items()))
         if self._keeps(k):
-            return self._headed(*changes, KEPT, case=self._case(k))
+            return self._headed(KEPT, case=self._case(k))
         if not all(self.right):
-            return self._wrong(k, changes)
-        if changes:
-            return self._headed(*changes, case=self._case(min(self.changes)))
+            return self._wrong(k)
         why = ONE_ARRAY if is_one_array(self.answers[0]) else None
         if copied_results(self.answers, self.expected, self.expected):
             why = why or ONE_WAY
@@ -217,7 +223,16 @@ class _Trial:
         objects = [x for x, is_right in zip(self.answers, self.right) if is_right and isinstance(x, np.ndarray | list)]
         return any(self.answers[k] is x for x in objects)
 
-    def _wrong(self, k: int, changes: list[Text]) -> Verdict:
+    def _changed(self, k: int, name: str) -> Verdict:
+        """Report that an argument is changed, in which case, and how to make a copy."""
+        argument = self.tried[k][self.part.names.index(name)]
+        copies = {np.ndarray: (COPY.fill(name=name),), list: (COPY_OF_LIST.fill(name=name),)}
+        if inspect.isclass(self.part.solution):
+            return self._headed(CHANGED_TERM, case=self._case(k))
+        help = copies.get(type(argument), ())
+        return self._headed(CHANGED.fill(name=name), case=self._case(k), help=help, more=self._more())
+
+    def _wrong(self, k: int) -> Verdict:
         """Return what is wrong with the numbers, with the first case that shows it."""
         found = diagnose(
             self.part,
@@ -228,12 +243,10 @@ class _Trial:
             special_cases=lambda: special_cases(self.course, self.part, self.seed),
             search_code=self.search,
         )
-        if changes and inspect.isclass(self.part.solution) and not found.slips:  # what is wrong comes of it
-            return self._headed(*changes, case=self._case(k))
         wrong, n = self.right.count(False), len(self.right)
         count = say("Wrong in {wrong} of {n} cases.", "{n} 组数据中错了 {wrong} 组。", wrong=wrong, n=n)
         return replace(
-            self._headed(*changes, *found.lines, *([count] if self.tried[k] else []), how=found.how),
+            self._headed(*found.lines, *([count] if self.tried[k] else []), how=found.how),
             slips=found.slips,
             case=self._case(k, (self.expected[k], self.answers[k])),
             help=found.help,
@@ -249,10 +262,16 @@ class _Trial:
         return failing_case(self.exercise, self.part, k, self.seed, self.tried[k], answers)
 
     def _more(self, slips: Sequence[str] = ()) -> tuple[Text, ...]:
-        """Return where to read on, and how to ask for more."""
-        section = self.course.field.slips[slips[0]].section if slips else self.exercise.section
-        name = Text(f"§{section}", f" §{section}") if section[:1].isdigit() else self.course.title(section)
-        return READ.fill(section=name), ASK.fill(call=f"{self.course.command} hint {self.part.name}")
+        return more(self.exercise, self.part, slips)
+
+
+def more(exercise: Exercise, part: Part, slips: Sequence[str] = ()) -> tuple[Text, ...]:
+    """Return where to read on, and how to ask for more."""
+    course, taught = exercise.course, exercise.taught or exercise.section
+    section = course.field.slips[slips[0]].section if slips else taught
+    section = taught if section == exercise.section else section
+    name = Text(f"§{section}", f" §{section}") if section[:1].isdigit() else course.title(section)
+    return READ.fill(section=name), ASK.fill(call=f"{course.command} hint {part.name}")
 
 
 def _is_frozen(x: Any) -> bool:

@@ -12,7 +12,8 @@ from .course import Course
 from .errors import CourseError, check_known
 from .exercise import Exercise, Part
 from .isolation import TIME_LIMIT_S, checked_limit, drawn
-from .text import Language, say
+from .judge import ASK
+from .text import Language, Text, say
 from .verdict import LEVELS, State
 from .workbook import Workbook, verdict_on_words
 
@@ -20,8 +21,6 @@ __all__ = ["check", "checked"]
 
 _STATES: dict[str, State] = {}
 """What has been checked in this process, by the name of the function. For the progress only."""
-
-_ASKED: dict[str, Language] = {}  # the language that was asked for last in this process
 
 
 def check(
@@ -40,6 +39,7 @@ def check(
     A course's own `check` explains the arguments.
     """
     exercise = course.exercise(number)
+    number = exercise.id
     if level not in LEVELS:
         raise CourseError(f"level: expected one of {LEVELS}, got {level!r}")
     known = {part.name: part for part in exercise.parts}
@@ -49,14 +49,18 @@ def check(
         if not given:
             expected = f"expected a function of {number} ({', '.join(known)})"
             raise CourseError(f"check: {expected}, got none, and none is defined here")
-    _ASKED.update({} if language is None else {"language": language})
-    book = Workbook(course, ".", language=_ASKED.get("language"), seed=drawn(seed))
+    session = course.session
+    session.language = language or session.language
+    book = Workbook(course, ".", language=session.language, seed=drawn(seed))
     limit = checked_limit(time_limit)
     book.watch = lambda name: interrupted(limit)
     verdicts = {}
     for function in given:
         part = _part(exercise, known, function, alone=len(functions) == 1)
-        verdicts[part.name] = book.judge_function(exercise, part, function)
+        verdict = book.judge_function(exercise, part, function)
+        ask = ASK.fill(call=f'{course.call}.hint("{part.name}")')
+        verdicts[part.name] = replace(verdict, more=(*verdict.more[:1], *[ask] * bool(verdict.more)))
+    session.verdicts.update(verdicts)
     if words is not None:
         verdicts[WORDS] = verdict_on_words(exercise, words)
     level = min(level, book.max_level)
@@ -74,12 +78,19 @@ def checked(book: Workbook, exercise: Exercise) -> Checked:
 def _with_progress(found: Checked) -> Checked:
     """Add a line about the section."""
     _STATES.update({name: verdict.state for name, verdict in found.functions.items()})
+    are_right = all(_STATES.get(part.name) == "done" for part in found.exercise.parts)
     section = found.exercise.section
     every = found.exercise.course.of_section(section)
-    done = [all(_STATES.get(part.name) == "done" for part in exercise.parts) for exercise in every]
+    missing = {x.id: [part.name for part in x.parts if _STATES.get(part.name) != "done"] for x in every}
+    done = [not names for names in missing.values()]
     text = "Section {section}: {bar}  {done} of {all} exercises", "{section} 节：{bar}  {done}/{all} 题"
     line = say(*text, section=section, bar="".join("○●"[x] for x in done), done=sum(done), all=len(done))
-    return replace(found, progress=line.of(found.language))
+    rest = missing[found.exercise.id]
+    if 0 < len(rest) < len(found.exercise.parts):
+        names = Text(", ".join(rest), "、".join(rest))
+        text = "{line}; of {id} there is still to check: {names}", "{line}；{id} 还有待检查的函数：{names}"
+        line = say(*text, line=line, id=found.exercise.id, names=names)
+    return replace(found, progress=line.of(found.language), are_functions_right=are_right)
 
 
 def _part(exercise: Exercise, known: dict[str, Part], function: Callable[..., Any], *, alone: bool) -> Part:

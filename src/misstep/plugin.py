@@ -32,7 +32,8 @@ __all__ = [
 ]
 
 COMPARE = Text(
-    "{id} is right. To compare with your own words, the model answer:", "{id} 正确。请与你的回答对照，参考答案："
+    "{id}: your functions are right. To compare with your own words, the model answer:",
+    "{id}：函数都正确。请把你的回答与参考答案对照：",
 )
 UNREAD = Text("None of its answers can be checked until it can be read.", "文件能读取之后，才能检查其中的答案。")
 SEED = Text(

@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from .calls import call_or_none, cheapest_case, keeps_arguments
+from .calls import call_or_none, cheapest_case, keeps_arguments, value_of_reference
 from .compare import agree, close, copied_results, values
 from .exercise import Part
 from .grammar import RULES, Edit, Habits, edits
@@ -46,13 +46,15 @@ class Evidence:
         special_cases: Callable[[], Sequence[Arguments]] = tuple,
     ) -> None:
         self.part, self.function, self.answers, self.cases = part, function, answers, cases
-        self.right = [part.value(part.solution, arguments) for arguments in cases]
+        self.right = [value_of_reference(part, arguments) for arguments in cases]
         self.is_split = len(part.returns) > 1 and part.canonical is None  # each result is compared by itself
         self.results = range(len(part.returns) if self.is_split else 1)
         compared = [self.same(*three) for three in zip(answers, self.right, cases)]
         self.wrong = frozenset(j for j in self.results if not all(same[j] for same in compared))
         wrong_cases = [k for k, same in enumerate(compared) if not all(same)]
         self.first = cheapest_case({k: cases[k] for k in wrong_cases or range(len(cases))})
+        self.shown = min(wrong_cases, default=0)
+        """The case that a message shows: the first wrong one."""
         self._special_cases = special_cases
 
     def same(self, first: Any, second: Any, arguments: Arguments) -> list[bool]:
@@ -74,7 +76,7 @@ class Evidence:
     @cached_property
     def _special(self) -> list[tuple[Arguments, Any]]:
         cases = self._special_cases() if self.cases[0] else ()
-        return [(arguments, self.part.value(self.part.solution, arguments)) for arguments in cases]
+        return [(arguments, value_of_reference(self.part, arguments)) for arguments in cases]
 
     def is_cured_by(self, function: Function) -> bool:
         """Whether a changed function is right in the special cases as well."""

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from .calls import value_of_reference
 from .compare import Array, differing, values
 from .exercise import Exercise, Part
 from .text import Language, Text, hanging, say
@@ -62,8 +63,7 @@ class Compared:
         """Yield the rows, expected and got, each number as text; where they differ, it is in brackets."""
         for a, b, bad in zip(*(x.reshape(-1, self._columns) for x in (self.expected, self.got, self.wrong))):
             differ = [(x, y) for x, y, no in zip(a, b, bad) if no]
-            digits = next((d for d in DIGITS if all(_number(x, d) != _number(y, d) for x, y in differ)), DIGITS[-1])
-            write = partial(_number, digits=digits)
+            write = partial(_number, digits=_digits(differ))
             yield [f" {write(x)} " for x in a], [f"[{write(y)}]" if no else f" {write(y)} " for y, no in zip(b, bad)]
 
     def lines(self, language: Language) -> list[str]:
@@ -72,7 +72,8 @@ class Compared:
         if not self.is_small:
             found = [*zip(np.argwhere(self.wrong).tolist(), self.expected[self.wrong], self.got[self.wrong])]
             more = say("... and {n} more entries differ", "……另有 {n} 个元素不同", n=len(found) - MAX_LISTED)
-            listed = [f"    {at}  {_number(x)}  [{_number(y)}]" for at, x, y in found[:MAX_LISTED]]
+            digits = _digits([(x, y) for _, x, y in found[:MAX_LISTED]])
+            listed = [f"    {at}  {_number(x, digits)}  [{_number(y, digits)}]" for at, x, y in found[:MAX_LISTED]]
             return [head, *listed, *["    " + more.of(language)] * (len(found) > MAX_LISTED)]
         rows = [("".join(a), "".join(b)) for a, b in self.rows()]
         if len(rows) == 1:
@@ -220,7 +221,7 @@ def whole(part: Part, arguments: tuple[Any, ...], language: Language) -> str:
     """Return the arguments of a case and the right answer with all their numbers; of a number by hand, nothing."""
     if not arguments:
         return Text(f"{part.name} has no arguments.", f"{part.name} 没有参数。").of(language)
-    right = values(part.value(part.solution, arguments), part.returns) or []
+    right = values(value_of_reference(part, arguments), part.returns) or []
     with np.printoptions(floatmode="unique", threshold=10**6, linewidth=120):
         lines = [f"{name} = {value!r}" for name, value in zip(part.names, arguments)]
         lines += ["", EXPECTED.of(language) + ":"]
@@ -236,6 +237,11 @@ def _as_input(value: Any) -> Any:
         return Text(f"a list of {len(value)} arrays", f"{len(value)} 个数组的列表")
     name = getattr(value, "name", value)
     return name if isinstance(name, Text) else Text(*(" ".join(str(name).split()),) * 2)
+
+
+def _digits(differ: Sequence[tuple[Any, Any]]) -> int:
+    """Return with how many digits all pairs of numbers are seen to differ."""
+    return next((d for d in DIGITS if all(_number(x, d) != _number(y, d) for x, y in differ)), DIGITS[-1])
 
 
 def _number(x: Any, digits: int = DIGITS[0]) -> str:
@@ -287,8 +293,8 @@ def _plain(x: Any) -> Any:
         return [_plain(item) for item in x]
     if isinstance(x, np.ndarray | np.number | np.bool_):
         array = np.asarray(x)
-        kind = "f" if array.dtype.kind in "iuf" else array.dtype.kind
-        flat: Any = array.ravel().astype({"f": float, "b": int, "c": complex}[kind])
+        kind = "i" if array.dtype.kind == "u" else array.dtype.kind
+        flat: Any = array.ravel().astype({"f": float, "i": int, "b": int, "c": complex}[kind])
         return {"array": [list(array.shape), kind, flat.view(float if kind == "c" else flat.dtype).tolist()]}
     raise TypeError(f"expected numbers, texts, arrays or a verdict, got {name}")
 
@@ -313,6 +319,6 @@ def _value(x: Any) -> Any:
     ((name, held),) = x.items()
     if name == "array":
         shape, kind, numbers = held
-        flat = np.array(numbers, bool if kind == "b" else float)
+        flat: Any = np.array(numbers, {"b": bool, "i": int}.get(kind, float))
         return (flat.view(complex) if kind == "c" else flat).reshape(shape)
     return CLASSES[name](*map(_value, held))

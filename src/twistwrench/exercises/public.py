@@ -90,7 +90,8 @@ def check(
         The answers, in any order, matched by their names. Without any: those functions of the exercise that the
         caller has defined.
     words : str, optional
-        The answer in words, where the exercise asks for one; the model answer is then shown beside it.
+        The answer in words, where the exercise asks for one; once the functions are right, the model answer is shown
+        beside it. It is not judged.
     language : {"en", "zh"}, optional
         The one asked for last unless given; at first that of the folder or of the environment.
     seed : int, optional
@@ -179,20 +180,23 @@ def hint(
 ) -> str:
     """Return the next hint for a function. Which were given is remembered in the folder.
 
-    Of a wrong answer in the folder the first hint says which slip it is, and the last what to write instead.
+    Of an answer that is wrong in the folder, or was when `check` looked at it last, the first hint says which slip it
+    is, and the last what to write instead.
 
     Parameters
     ----------
     name : str
-        Of the function; or the number of an exercise, as "49.3.1", for the first of its functions that is not right.
+        Of the function; or the number of an exercise, as "49.3.1", for the first of its functions that is wrong, or
+        else is not right yet.
     folder : str or path
-        One that `start` has filled. In any other, nothing is remembered, and each call returns the first hint.
+        One that `start` has filled. In any other, only of what was `check`ed is it remembered which hints were given,
+        until Python ends; else each call returns the first.
     again : bool
         Repeat the last hint.
     every : bool
         All hints at once.
     language : {"en", "zh"}, optional
-        That of the folder unless given.
+        The one that `check` was asked for last unless given; else that of the folder.
 
     Returns
     -------
@@ -224,7 +228,7 @@ def solution(name: str, folder: str | PathLike[str] = ".", *, language: Language
     folder : str or path
         One that `start` has filled.
     language : {"en", "zh"}, optional
-        That of the folder unless given.
+        The one that `check` was asked for last unless given; else that of the folder.
 
     Returns
     -------

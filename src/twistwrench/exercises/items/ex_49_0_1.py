@@ -19,6 +19,7 @@ def skew(w: Any) -> Any:
 
 EXERCISE = Exercise(
     id="49.0.1",
+    taught="49.2",
     kind="code",
     parts=(
         Part(

@@ -18,6 +18,7 @@ def act(R: Any, p: Any, x: Any) -> Any:
 
 EXERCISE = Exercise(
     id="49.0.2",
+    taught="49.3",
     kind="code",
     parts=(
         Part(

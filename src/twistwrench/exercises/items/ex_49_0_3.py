@@ -35,6 +35,7 @@ def _cases(rng: Any) -> Any:
 
 EXERCISE = Exercise(
     id="49.0.3",
+    taught="49.3",
     kind="explain",
     parts=(
         Part(

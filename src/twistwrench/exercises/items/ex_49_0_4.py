@@ -37,6 +37,7 @@ def _cases(rng: Any) -> Any:
 
 EXERCISE = Exercise(
     id="49.0.4",
+    taught="49.1",
     kind="explain",
     parts=(
         Part(

@@ -35,6 +35,7 @@ def _along_its_axes(rng: Any) -> Any:
 
 EXERCISE = Exercise(
     id="49.0.5",
+    taught="49.5",
     kind="code",
     parts=(
         Part(
