@@ -10,6 +10,7 @@ from .test_exercises_isolation import write
 __all__ = ["BODIES", "FILES", "RIGHT", "ROOMS", "hand_in"]
 
 RIGHT = "return R @ x + p"
+RIGHT_SKEW = "return np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])"
 
 ODD = """
 class Odd:
@@ -100,8 +101,8 @@ BODIES = {
     "interrupt": "raise KeyboardInterrupt",
     "exit": "import os\nos._exit(0)",
     "crash": "import ctypes\nctypes.string_at(0)",
-    "stopped": "import os, signal\nos.kill(os.getpid(), signal.SIGSTOP)\nreturn tw.skew(w)",
-    "group stopped": "import os, signal\nos.killpg(0, signal.SIGSTOP)\nreturn tw.skew(w)",
+    "stopped": "import os, signal\nos.kill(os.getpid(), signal.SIGSTOP)\n" + RIGHT_SKEW,
+    "group stopped": "import os, signal\nos.killpg(0, signal.SIGSTOP)\n" + RIGHT_SKEW,
     "unwatched": UNWATCHED + LOOP,
     "deaf": DEAF + UNWATCHED + LOOP,
     "swallowing": "while True:\n    try:\n        x = 1\n    except BaseException:\n        pass",
@@ -111,7 +112,7 @@ BODIES = {
     "garbage": WRITES.replace("WHAT", "b'garbage' * 3000") + "return tw.skew(w) + 1",
     "a pickle": WRITES.replace("WHAT", PICKLE) + "return tw.skew(w) + 1",
     "endless garbage": "while True:\n    " + WRITES.replace("\n", "\n    ").replace("WHAT", "b'x' * 60000"),
-    "closed": "import os\nos.closerange(3, 100)\nreturn tw.skew(w)",
+    "closed": "import os\nos.closerange(3, 100)\n" + RIGHT_SKEW,
     "own json": WRITES.replace("WHAT", "b'[\"answer\", [true, []]]\\n'") + "return tw.skew(w) + 1",
     "memory": "return np.ones((10**6, 10**6))",
     "recursion": "return skew(w)",
@@ -153,10 +154,10 @@ def hand_in(room, *, bodies=BODIES, files=FILES, rooms=ROOMS):
         write(room / f"body, {kind}", "49.0", {"act": RIGHT, "skew": filled}, more=ODD)
     for kind, change in files.items():
         start(room / f"file, {kind}", language="en")
-        write(room / f"file, {kind}", "49.0", {"act": RIGHT, "skew": "return tw.skew(w)"})
+        write(room / f"file, {kind}", "49.0", {"act": RIGHT, "skew": RIGHT_SKEW})
         file = room / f"file, {kind}" / "ex_49_0.py"
         change(file, file.read_text(encoding="utf-8"))
     for kind, text in rooms.items():
         start(room / f"room, {kind}", language="en")
-        write(room / f"room, {kind}", "49.0", {"act": RIGHT, "skew": "return tw.skew(w)"})
+        write(room / f"room, {kind}", "49.0", {"act": RIGHT, "skew": RIGHT_SKEW})
         (room / f"room, {kind}" / COURSE.state_file).write_text(text, encoding="utf-8")

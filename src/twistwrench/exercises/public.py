@@ -116,13 +116,12 @@ def check(
 
     Examples
     --------
-    >>> import twistwrench as tw
-    >>> def skew(w):
-    ...     return tw.skew(w)
-    >>> check("49.0.1", skew, language="en")
-    49.0.1  skew: right.
+    >>> def act(R, p, x):
+    ...     return R @ x + p
+    >>> check("49.0.2", act, language="en")
+    49.0.2  act: right.
     <BLANKLINE>
-    Section 49.0: ●... of 5 exercises
+    Section 49.0: ...●... of 5 exercises
     """
     return notebook.check(
         COURSE,
