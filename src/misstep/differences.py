@@ -17,6 +17,7 @@ __all__ = ["differences", "first_wrong_line", "structure"]
 
 MAX_LISTED = 3  # wrong entries that are listed
 NEARLY = 1e-4  # relative error of an answer that is right but for its digits; a term left out may be as small as 1e-3
+NEARLY_ROUNDED, DECIMALS = 5e-3, 3  # the same of an answer that was rounded, and to how many decimals at most
 TRACE_RTOL = 1e-9
 
 NO_RETURN = Text("It returned None. Is the `return` missing?", "返回了 None。是不是漏了 `return`？")
@@ -149,7 +150,7 @@ def _relation(a: Array, b: Array, within: Any, origin: tuple[int, ...] = ()) -> 
             return Text(en, zh), True
     with np.errstate(invalid="ignore"):
         wrong, error = ~(np.abs(a - b) <= within), float(np.abs(a - b).max() / np.abs(b).max(initial=FLOOR))
-    if error < NEARLY:
+    if error < (NEARLY_ROUNDED if np.array_equal(a, np.round(a, DECIMALS)) else NEARLY):
         return say("right to {n} digits only", "只有 {n} 位正确", n=int(-np.log10(error))), True
     n = int(wrong.sum())
     if n <= MAX_LISTED and n < a.size:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from os import PathLike
 
 from .checked import ladder
-from .course import Course
+from .course import Course, Session
 from .isolation import opened
 from .skeletons import solution_sources
 from .text import Language, Text, say, wrapped
@@ -28,7 +28,7 @@ LATER = Text(
 )
 
 
-TO_DO = Verdict("to do")
+TO_DO, HERE = Verdict("to do"), "."
 
 
 class Shown(str):
@@ -40,10 +40,15 @@ class Shown(str):
         return str(self)
 
 
+def _session(course: Course, folder: str | PathLike[str]) -> Session:
+    """Return what was checked in this process; nothing where a folder is asked for."""
+    return course.session if str(folder) == HERE else Session()
+
+
 def hint(
     course: Course,
     name: str,
-    folder: str | PathLike[str] = ".",
+    folder: str | PathLike[str] = HERE,
     *,
     again: bool = False,
     every: bool = False,
@@ -55,7 +60,7 @@ def hint(
     first of its functions that is wrong, or else is not right yet. What is not wrong in the folder may be so where it
     was checked last, as in a notebook.
     """
-    exercise, session = course.asked_for(name), course.session
+    exercise, session = course.asked_for(name), _session(course, folder)
     with opened(course, folder, language=language or session.language) as book:
         parts = [part for part in exercise.parts if part.name == name] or exercise.parts
         found = []
@@ -93,12 +98,13 @@ def hint(
     return Shown("\n".join(lines).rstrip("\n"))
 
 
-def solution(course: Course, name: str, folder: str | PathLike[str] = ".", *, language: Language | None = None) -> str:
+def solution(course: Course, name: str, folder: str | PathLike[str] = HERE, *, language: Language | None = None) -> str:
     """Return a solution of an exercise, as it could stand in the student's file; that it was shown is remembered.
 
     It includes the model answer to a question in words once the student has answered it.
     """
-    exercise, book = course.asked_for(name), Workbook(course, folder, language=language or course.session.language)
+    exercise = course.asked_for(name)
+    book = Workbook(course, folder, language=language or _session(course, folder).language)
     number, language = exercise.id, book.language
     book.remember_shown(exercise.section, solutions=sorted({*book.state["solutions"], number}))
     head = say("{id} {title}: a solution", "{id} {title}：参考解答", id=number, title=exercise.title)

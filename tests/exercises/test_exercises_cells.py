@@ -44,7 +44,8 @@ def test_a_wrong_answer_has_the_message_and_the_numbers():
     checked = check("49.0.2", act, seed=4, language="en")
     plain = judge(*COURSE.find_part("act"), act, seed=4)
     assert checked.verdicts["act"].lines == plain.lines
-    assert plain.report("en") in repr(checked)
+    told = plain.report("en").replace("twistwrench exercises hint act", 'tw.exercises.hint("act")')
+    assert told in repr(checked)
     text = html(checked)
     assert text.count('class="tw-bad"') == text.count('class="tw-good"') == 3
     assert "the translation has the wrong sign" in text[text.index("<details><summary>hint 1 of 4") :]
@@ -97,11 +98,29 @@ def test_a_name_is_needed_only_where_there_are_several_functions():
         check("49.0.22", act)
 
 
-def test_words_stand_beside_the_model_answer():
-    checked = check("49.6.2", words="The world rises, <so> every body feels it.", language="en")
-    assert "<pre>The world rises, &lt;so&gt; every body" in html(checked)
-    assert "".join(COURSE.exercise("49.6.2").answer.en.split()) in "".join(repr(checked).split())
-    assert not check("49.6.2", words="up", language="en").right
+def adjoint(T):
+    columns = [T @ tw.hat(e) @ np.linalg.inv(T) for e in np.eye(6)]
+    return np.array([[A[2, 1], A[0, 2], A[1, 0], *A[:3, 3]] for A in columns]).T
+
+
+def test_words_are_noted_and_the_model_answer_comes_once_the_functions_are_right():
+    def shown(checked):
+        return "".join((repr(checked) + html(checked)).split())
+
+    words, answer = "It moves <twists>, I think.", "".join(COURSE.exercise("49.0.3").answer.en.split())
+    check("49.0.3", lambda T: np.eye(6), language="en")
+    before = check("49.0.3", words=words, language="en")
+    assert not before.right
+    assert before.points == 0
+    assert answer not in shown(before)
+    check("49.0.3", adjoint)
+    after = check("49.0.3", words=words)
+    assert answer in shown(after)
+    assert "<pre>Itmoves&lt;twists&gt;,Ithink.</pre>" in shown(after)
+    assert not after.right
+    assert check("49.0.3", adjoint, words=words).right
+    assert not check("49.0.3", adjoint, words="up").right
+    assert "right" not in repr(after).split("\n")[0]
 
 
 def test_an_endless_loop_is_stopped_with_its_line():
