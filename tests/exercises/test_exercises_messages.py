@@ -128,13 +128,10 @@ def test_mine_hands_on_what_was_judged(tmp_path):
     start(tmp_path, language="en")
     write(tmp_path, "49.0", {"act": "return (R @ x + p).tolist()"})
     assert "not a list" in said(tmp_path, "act")[1]
-    write(
-        tmp_path,
-        "49.2",
-        {"twist_matrix": "return np.matrix([[0, -omega_z, 0, v_x], [omega_z, 0, 0, 0], [0] * 4, [0] * 4])"},
-    )
+    place = "R, t = tw.exp3([0, 0, omega_z]), omega_z\nv = v_x / t\n"
+    write(tmp_path, "49.2", {"arc": place + "return tw.SE3(R, [v * np.sin(t), v * (1 - np.cos(t)), 0])"})
     book = Workbook(COURSE, tmp_path)
-    found = offered("twist_matrix", book)(1.0, 2.0)
+    found = offered("arc", book)(1.0, 2.0)
     assert book.borrowed == set()
     assert type(found) is np.ndarray
 
