@@ -267,9 +267,8 @@ class _Trial:
 
 def more(exercise: Exercise, part: Part, slips: Sequence[str] = ()) -> tuple[Text, ...]:
     """Return where to read on, and how to ask for more."""
-    course, taught = exercise.course, exercise.taught or exercise.section
-    section = course.field.slips[slips[0]].section if slips else taught
-    section = taught if section == exercise.section else section
+    course = exercise.course
+    section = course.field.slips[slips[0]].section if slips else exercise.taught or exercise.section
     name = Text(f"§{section}", f" §{section}") if section[:1].isdigit() else course.title(section)
     return READ.fill(section=name), ASK.fill(call=f"{course.command} hint {part.name}")
 
