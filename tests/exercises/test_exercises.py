@@ -475,7 +475,7 @@ def test_a_block_that_is_off_is_named_and_how(change, en, zh):
     assert f"X, the block of rows v, columns ω: {en}" in said
     assert "the rest of X is right" in said
     assert "X*, the" not in said
-    assert f"X，v 行 ω 列的块：{zh}" in message("plucker", spoilt(change), "zh")
+    assert f"X，v 行、ω 列的块：{zh}" in message("plucker", spoilt(change), "zh")
 
 
 @pytest.mark.parametrize(
