@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from .exercise import Output, Part
 
 __all__ = [
-    *("FLOOR", "Array", "Value", "agree", "close", "copied_results", "differing", "is_list_for_array"),
+    *("FLOOR", "Array", "Value", "agree", "arrays_of", "close", "copied_results", "differing"),
     *("is_one_array", "plain", "to_do", "unchanged", "unwarned", "values"),
 ]
 
@@ -91,6 +91,15 @@ def values(answer: Any, returns: Sequence[Output]) -> list[Value] | None:
     return [Value(q, _array(x), x) for q, x in zip(returns, answer)]
 
 
+def arrays_of(answer: Any, returns: Sequence[Output]) -> Any:
+    """Return an answer with arrays in place of the lists of numbers in it, as other functions compute with it."""
+    pieces = values(answer, returns)
+    if pieces is None:
+        return answer
+    found = [x.array if isinstance(x.raw, list | tuple) and x.array is not None else x.raw for x in pieces]
+    return found[0] if len(found) == 1 else tuple(found)
+
+
 def _array(x: Any) -> Array | None:
     """Convert to an array of numbers or of truth values."""
     if x is None or isinstance(x, str):
@@ -110,18 +119,11 @@ def _array(x: Any) -> Array | None:
 
 
 def close(a: Value, b: Value, rtol: float) -> bool:
-    """Whether two values are the same, to a part of the largest entry of the second; a list is no array."""
-    if is_list_for_array(a, b):
-        return False
+    """Whether two values are the same, to a part of the largest entry of the second."""
     if a.array is None or b.array is None:
         return isinstance(a.raw, str) and isinstance(b.raw, str) and a.raw.strip() == b.raw.strip()
     same_kind = (a.array.dtype.kind == "b") == (b.array.dtype.kind == "b")
     return same_kind and a.array.shape == b.array.shape and not differing(a.array, b.array, rtol).any()
-
-
-def is_list_for_array(a: Value, b: Value) -> bool:
-    """Whether the first is a list where the second is an array: other functions compute with it."""
-    return isinstance(a.raw, list | tuple) and isinstance(b.raw, np.ndarray)
 
 
 def differing(a: Array, b: Array, rtol: float) -> Array:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .compare import FLOOR, Array, Value, is_list_for_array, values
+from .compare import FLOOR, Array, Value, values
 from .exercise import Part
 from .listing import Listing, equal, text_of
 from .text import Text, say
@@ -70,7 +70,7 @@ def structure(part: Part, answers: Sequence[Any], right: Sequence[Any]) -> Text 
 def _uncomparable(got: Value, right: Value) -> Text | None:
     """Report another type or another shape, or numbers that are not finite."""
     name, a, b = got.output.title, got.array, right.array
-    if is_list_for_array(got, right):
+    if isinstance(got.raw, list | tuple) and b is not None and (a is None or a.ndim > b.ndim):
         return NO_ARRAY.fill(name=name, got=type(got.raw).__name__)
     kinds = ["s" if isinstance(x.raw, str) else "" if x.array is None else x.array.dtype.kind for x in (got, right)]
     wanted = {"s": Text("a string", "字符串"), "b": Text("True or False", "True 或 False")}

@@ -21,7 +21,7 @@ from zlib import crc32
 
 from .calls import shown
 from .checked import WORDS, Checked
-from .compare import plain, unwarned
+from .compare import arrays_of, plain, unwarned
 from .course import Course
 from .errors import CourseError
 from .exercise import Exercise, Part
@@ -321,7 +321,9 @@ def offered(name: str, book: Workbook) -> Callable[..., Any]:
             with unwarned():  # a warning would show a line of the solution
                 return best(*arguments, **named)
         found = best(*arguments, **named)
-        return found if part.call or inspect.isclass(best) else plain(found)  # what was judged
+        if part.call or inspect.isclass(best):
+            return found
+        return arrays_of(plain(found), part.returns)  # as it was judged
 
     function.__name__, function.__doc__ = name, part.doc.en
     vars(function)["mine"] = name
