@@ -377,11 +377,13 @@ c = kin.placement[1].inverse().act(tw.center_of_mass(model, q))  # base and worl
 assert np.allclose(base_wrench, [*np.cross(c, up), *up])
 print("base: moment", base_wrench[:3].round(3) + 0.0, "N m, force", base_wrench[3:].round(2) + 0.0, "N")
 # %% [markdown] lang="en" after="49.6.3"
-# Somebody must hold the whole weight *upwards* and, since the centre of mass is not at the origin of the base, apply a
-# moment $\boldsymbol c \times m\boldsymbol g$ as well. The chapter has the sign of the weight, and no moment.
+# Somebody must hold the whole weight *upwards*, with the force $-m\boldsymbol g$, and, since the centre of mass is not at
+# the origin of the base, apply the moment of that force at $\boldsymbol c$ as well:
+# $\boldsymbol c \times (-m\boldsymbol g)$, the opposite of the moment of the weight. The chapter has the sign of the
+# weight, and no moment.
 # %% [markdown] lang="zh" after="49.6.3"
-# 得有人*向上*托住全部重量;而质心不在基座原点,所以还有力矩 $\boldsymbol c \times m\boldsymbol g$。本章写的是重力本身的符号,
-# 也没有力矩。
+# 得有人用 $-m\boldsymbol g$ *向上*托住全部重量;而质心不在基座原点,所以还要有这个力在 $\boldsymbol c$ 处的力矩
+# $\boldsymbol c \times (-m\boldsymbol g)$,它与重力的力矩正好相反。本章写的是重力本身的符号,也没有力矩。
 # %%
 tw.ask("49.6-hip", ...)
 # %% [markdown] lang="en"
