@@ -1,14 +1,15 @@
 # %% [markdown] lang="en"
 # # Five minutes with twistwrench
 #
-# You need nothing from the chapter yet. In the next eight cells you load a robot dog, look at it, ask what its motors
-# must do, and check the answer in two other ways. Run the cells one by one (Shift + Enter), and change them:
-# nothing can break.
+# You need nothing from the chapter yet. In the next cells you load a robot dog, look at it, ask what its motors must do, and
+# check the answer in two other ways. Eight of the code cells are for reading; the others are folded, and prepare, draw or
+# check. Run them all one by one (Shift + Enter), and change them: nothing can break.
 # %% [markdown] lang="zh"
 # # 五分钟认识 twistwrench
 #
-# 现在还不需要读过本章。下面八个代码单元里,你会加载一只机器狗,看看它的样子,问问它的电机要出多大力,
-# 再用另外两种办法核对答案。请逐个运行(Shift + Enter),也请随手改一改:改不坏。
+# 现在还不需要读过本章。在下面的单元格里,你会加载一只机器狗,看看它的样子,问问它的电机要出多大力,
+# 再用另外两种办法核对答案。有八个代码单元格是给你读的,其余的折叠着,负责准备、画图或检验。请逐个全部运行(Shift + Enter),
+# 也请随手改一改:改不坏。
 # %%
 import twistwrench as tw
 
@@ -25,7 +26,7 @@ from twistwrench import plot
 # bolted to anything. Its posture `q` says where the trunk is and how it is turned, then the angles of the joints:
 # %% [markdown] lang="zh"
 # `tw.robots()` 列出目录里的其他机器人;给一个 URDF 文件的路径也行。Go2 有 12 个电机,躯干没有固定在任何东西上。
-# 它的位形 `q` 先说躯干在哪里、怎样转,再说各关节的角度:
+# 位形 `q` 前面是躯干的位置和姿态,后面是各关节的角度:
 # %%
 q = model.standing()  # a posture with all four feet on the floor
 assert (model.nq, model.nv) == (19, 18)
@@ -33,13 +34,14 @@ assert q.shape == (19,)
 print("base position", q[:3].round(3), " quaternion x, y, z, w", q[3:7])
 print("front left leg: hip, thigh, calf", q[7:10], "rad")
 # %% [markdown] lang="en"
-# The first cell says `nq = 19`, `nv = 18`: a posture takes one number more than a velocity. Why? That is exercise 49.1.1.
+# The first cell says `nq = 19`, `nv = 18`: a posture takes one number more than a velocity. Why, and would it be so if the
+# turn of the trunk were written otherwise? That is exercise 49.1.1.
 # Which number a library writes first is another matter. On the site that belongs to this package (`python docs/build.py`
 # builds it) you can paste the state of one library, and read it as another one writes it:
 # [Translate my numbers](../hands/translate.md).
 # %% [markdown] lang="zh"
-# 第一个单元格里写着 `nq = 19`、`nv = 18`:位形比速度多一个数。为什么?这是练习 49.1.1 的问题。
-# 各个库先写哪个数,又各不相同。在本包的配套网站上(用 `python docs/build.py` 生成)可以粘贴一个库的状态,看另一个库怎样写:[换算我的数](../hands/translate.md)。
+# 第一个单元格里写着 `nq = 19`、`nv = 18`:位形比速度多一个数。为什么?躯干的姿态换一种写法,还会这样吗?这是练习 49.1.1 的问题。
+# 至于先写哪个数,各个库又不一样。在本包的配套网站上(用 `python docs/build.py` 生成)可以粘贴一个库的状态,看另一个库怎样写:[换算我的数](../hands/translate.md)。
 # %% [markdown] lang="en"
 # ## What holds it up?
 #
@@ -121,7 +123,7 @@ else:
 # %% [markdown] lang="zh"
 # ## 再看一张图
 #
-# 一个关节加速时,还有哪些关节必须出力才能保持不动?质量矩阵的每一列就是对一个关节的回答,白色是零。哪些腿彼此耦合?
+# 一个关节加速时,还有哪些关节必须出力才能保持不动?质量矩阵的每一列对应一个加速的关节,写着各关节所需的力,白色是零。哪些腿彼此耦合?
 # 什么与所有的腿都耦合?为什么,见笔记本 49.8。
 # %%
 M = tw.crba(model, q)
@@ -138,7 +140,7 @@ assert (M[:6, rear] != 0).any()
 # ## Where to go next
 #
 # - Notebook 49.1 begins the chapter: why six numbers for a velocity.
-# - `help(tw.rnea)` shows shapes, units and frames; each function has an example.
+# - `help(tw.frame_jacobian)` shows shapes, units and frames; each function has an example.
 # - `twistwrench validate go2` in a terminal compares every quantity with Pinocchio.
 # - `twistwrench exercises start my_answers` puts the chapter's exercises into a folder of yours, and
 #   `python -m pytest` there checks your answers.
@@ -147,7 +149,7 @@ assert (M[:6, rear] != 0).any()
 # ## 接下来去哪里
 #
 # - 笔记本 49.1 从本章的开头讲起:速度为什么要用六个数。
-# - `help(tw.rnea)` 给出形状、单位和坐标系;每个函数都有例子。
+# - `help(tw.frame_jacobian)` 给出形状、单位和坐标系;每个函数都有例子。
 # - 在终端运行 `twistwrench validate go2`,把每个量与 Pinocchio 逐一比较。
 # - `twistwrench exercises start my_answers --language zh` 把本章练习放进你自己的文件夹,在那里运行 `python -m pytest` 就能检查答案。
-# - 代码是写来读的:`rnea` 一屏就能看完,在 `algorithms/rnea.py` 里。
+# - 代码就是写给人读的:`rnea` 一屏就能看完,在 `algorithms/rnea.py` 里。

@@ -7,7 +7,7 @@
 # %% [markdown] lang="zh"
 # # 49.1 为什么需要空间向量
 #
-# 刚体既转动又移动。用 3D 向量来描述要两个量,而换一个参考点或坐标系时,它们遵守的规则并不一样。
+# 刚体既转动又移动。用 3D 向量来描述要两个向量,而换一个参考点或坐标系时,它们遵守的规则并不一样。
 # 这个笔记本先说明这些规则,再看漏掉一条会怎样,最后看 6D 向量怎样解决这个问题。
 # %%
 import twistwrench as tw
@@ -290,7 +290,7 @@ plt.show()
 # them into the structure of two operations, $X$ and $\boldsymbol V \times$, where they cannot be forgotten one by one. The
 # result is the same:
 # %% [markdown] lang="zh"
-# 这些错误都不会让结果看上去不可能。6D 代数没有让这些项消失,而是把它们编进两种运算 $X$ 与 $\boldsymbol V \times$ 的结构里,
+# 犯了这些错误,没有一个数看上去离谱。6D 代数没有让这些项消失,而是把它们编进两种运算 $X$ 与 $\boldsymbol V \times$ 的结构里,
 # 不会再被一项一项地漏掉。结果是一样的:
 # %%
 slow, fast = newton_euler_3d.inverse_dynamics(model, q, v, a), tw.rnea(model, q, v, a)
@@ -304,7 +304,7 @@ assert np.abs(slow - fast).max() < 1e-12 * np.abs(slow).max()
 # %% [markdown] lang="zh"
 # ## 六个数从哪里来
 #
-# 两条思路在本章汇合。轴的上方是用六个数描述直线、运动和力的人;下方是让多体运动的计算时间只随 $N$ 增长的人,他们起初用的是三维向量。
+# 两条思路在本章汇合。轴的上方是用六个数描述直线、运动和力的人;下方的人让多体动力学的计算时间只与 $N$ 成正比,起初用的是三维向量。
 # Featherstone 把两者合到了一起。
 # %%
 ax = plot.axes_2d(size=(12, 4.5))

@@ -194,8 +194,8 @@ tw.exercises.check("49.2.1", foot_twist)
 # %% [markdown] lang="zh"
 # ## Twist 是一个速度场
 #
-# 给定这六个数,空间中每一点都有速度 $\boldsymbol v + \boldsymbol\omega \times \boldsymbol p$。这里关节全部锁死,
-# 所以整个机器人只有一个 spatial twist。各部分的 body twist 是在自己所在处读这个场,spatial twist 是在原点读。
+# 给定这六个数,空间中每一点的速度就都确定了:$\boldsymbol v + \boldsymbol\omega \times \boldsymbol p$。这里关节全部锁死,
+# 所以整个机器人只有一个 spatial twist。各部分的 body twist 是这个场在该部分所在处的读数,spatial twist 是在原点处的读数。
 # 这个场里有一处不动。
 # %%
 centre_of_curve = tw.ask("49.2-centre", ...)
@@ -499,9 +499,9 @@ for name, attempt in nonsense.items():
 # With complex numbers there is nothing to subtract. $f(t + ih)$ has the imaginary part $h f'(t)$, and $h$ may be as
 # small as $10^{-100}$. The folded checks of later notebooks use this **complex step**.
 # %% [markdown] lang="zh"
-# ### 不作差的导数
+# ### 不用差分的导数
 #
-# $10^{-5}$ s 的差分有九位有效数字,换别的步长也好不了多少:再短,舍入误差变大;再长,轨迹的弯曲显出来。用复数就不必相减:
+# $10^{-5}$ s 的差分有九位有效数字,换别的步长也好不了多少:再短,舍入误差变大;再长,轨迹的弯曲就显现出来。用复数就不必相减:
 # $f(t + ih)$ 的虚部是 $h f'(t)$,而 $h$ 可以小到 $10^{-100}$。后面笔记本里折叠的检验用的就是这种**复数步长**。
 # %%
 h = 1e-100

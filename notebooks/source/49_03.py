@@ -267,7 +267,7 @@ assert np.allclose(X @ X_back, np.eye(6), atol=1e-15)
 # %% [markdown] lang="zh"
 # ## Wrench:由功率决定
 #
-# 功率 $P = \boldsymbol F \cdot \boldsymbol V$ 的单位是瓦,多少瓦与谁来看无关。
+# 功率 $P = \boldsymbol F \cdot \boldsymbol V$ 以瓦计,它的大小与在哪个坐标系里看无关。
 # %%
 tw.ask("49.3-transpose", ...)
 # %% [markdown] lang="en"
@@ -324,7 +324,7 @@ tw.ask("49.3-own", ...)
 # With $X$ and $X^*$ the power is the same everywhere; with $X^T$ in the place of $X^*$ it is different in every frame, and
 # none of these numbers looks impossible. On the site you drag the second frame yourself: [Two frames](../hands/frames.md).
 # %% [markdown] lang="zh"
-# 用 $X$ 与 $X^*$ 时功率处处相同;用 $X^T$ 代替 $X^*$,每个坐标系里的功率都不一样,而这些数没有一个看上去不可能。
+# 用 $X$ 与 $X^*$ 时功率处处相同;用 $X^T$ 代替 $X^*$,每个坐标系里的功率都不一样,而这些数没有一个看上去离谱。
 # 在网站上可以自己拖动第二个坐标系:[两个坐标系](../hands/frames.md)。
 # %%
 rates = rng.standard_normal(model.nv)

@@ -44,12 +44,12 @@ v[2], v[3] = 0.6, 0.8  # the base turns left at 0.6 rad/s and walks at 0.8 m/s
 # 基座以 0.6 rad/s 左转,以 0.8 m/s 前行。有人向左前方推机器人的前端:在基座坐标系的 $\boldsymbol r = (0.28, 0, 0)$ m 处,$\boldsymbol f = (10, 15, 0)$ N。
 # 对基座原点来说,这就是 wrench $(\boldsymbol r \times \boldsymbol f, \boldsymbol f)$。推力的功率等于力乘以
 # *前端*的速度,$\boldsymbol f \cdot (\boldsymbol v + \boldsymbol\omega \times \boldsymbol r)$。把混合积轮换一下,
-# 前端就不见了:
+# 式中就不再出现前端的速度:
 #
 # $$P = \boldsymbol f^T \boldsymbol v + (\boldsymbol r \times \boldsymbol f)^T \boldsymbol\omega = \boldsymbol F^T
 # \boldsymbol V.$$
 #
-# 所以 wrench 就是把 twist 变成瓦特的东西。正因为如此,$\boldsymbol\tau$ 与 $\boldsymbol\omega$ 放在同一位置,
+# 所以 wrench 的作用,就是由 twist 得到功率。正因为如此,$\boldsymbol\tau$ 与 $\boldsymbol\omega$ 放在同一位置,
 # $\boldsymbol f$ 与 $\boldsymbol v$ 放在同一位置。Twist 和 wrench 属于两个互为对偶的空间:可以配对,不能相加。
 # %%
 r, f = np.array([0.28, 0, 0]), np.array([10.0, 15.0, 0])
@@ -110,7 +110,7 @@ plt.show()
 # only the relative motion counts, and that is the knee's. Of the six numbers in the joint the motor has one, and it does
 # all the work.
 # %% [markdown] lang="zh"
-# 一个作用在机器人上,一个作用在地面上,所以不会抵消。列一个刚体的平衡,只写别人作用在*它上面*的,不写它作用在别人上的。关节里也是一样。大腿把
+# 一个作用在机器人上,一个作用在地面上,所以不会抵消。列某个刚体的平衡方程,只写别的物体作用在*它上面*的力,不写它作用于别的物体的力。关节里也是一样。大腿把
 # $\boldsymbol F$ 传给小腿,小腿还给大腿 $-\boldsymbol F$。两者的总功率是
 #
 # $$\boldsymbol F^T \boldsymbol V_{calf} - \boldsymbol F^T \boldsymbol V_{thigh} =
@@ -146,9 +146,9 @@ assert not np.isclose(on_calf, motor, rtol=0.2)  # each of the two alone is no p
 # $X^*$ is not $X^T$: the transpose leads the *other way*, from $A$ to $B$. On the site you move $B$, and watch twelve
 # numbers change while the power does not: [Two frames](../hands/frames.md).
 # %% [markdown] lang="zh"
-# ## 在每个坐标系里都是同样的瓦特数
+# ## 功率与坐标系无关
 #
-# 谁来看都一样:无论在基座坐标系 $B$、世界 $A$ 还是脚的坐标系里,功率必须相同。Twist 按
+# 换坐标系不会改变功率:无论在基座坐标系 $B$、世界 $A$ 还是脚的坐标系里,功率必须相同。Twist 按
 # $\boldsymbol V_A = X \boldsymbol V_B$ 变换(49.3)。于是对任意 twist 都有
 # $\boldsymbol F_A^T X \boldsymbol V_B = \boldsymbol F_B^T \boldsymbol V_B$，wrench 的变换规则也就定下来了:
 #
@@ -174,7 +174,7 @@ plt.show()
 # %% [markdown] lang="en"
 # Now the push in five frames. The chapter calls its two parts "translational" and "rotational" power.
 # %% [markdown] lang="zh"
-# 现在把这一推放到五个坐标系里看。本章把它的两部分读作"平动功率"和"转动功率"。
+# 现在把这一推放到五个坐标系里看。本章把它的两部分叫作"平动功率"和"转动功率"。
 # %%
 tw.ask("49.4-parts", ...)
 # %% [markdown] lang="en"
@@ -531,7 +531,7 @@ largest_moment
 # %% [markdown] lang="zh"
 # 摩擦同样限制它:每个角的侧向力都不超过
 # $\mu f_i$,离中心都不超过 $\sqrt{d_x^2 + d_y^2}$,所以 $|\tau_z| \le \mu f_z \sqrt{d_x^2 + d_y^2}$。忘掉这一条的控制器
-# 会向地面要它给不出的力,机器人就在脚底上打转。
+# 会向地面要它给不出的力矩,机器人就在脚底上打转。
 # %%
 reach = np.hypot(d_x, d_y)
 assert (np.abs(feet[:, 2]) <= mu * feet[:, 5] * reach).all()

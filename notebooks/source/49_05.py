@@ -114,7 +114,7 @@ plt.show()
 # Is it right? Do not ask another formula. A rigid body is a heap of points;
 # take 500 at random and add up what each one has.
 # %% [markdown] lang="zh"
-# 对不对?不要去问另一个公式。
+# 对不对?不要用另一个公式来验证。
 # 刚体就是一堆质点;随机取 500 个,把每个质点的动量加起来。
 # %%
 masses, points = rng.uniform(0, 0.01, 500), rng.uniform([-0.2, 0, -0.3], [0.2, 0.1, 0.5], (500, 3))
@@ -142,7 +142,7 @@ tw.ask("49.5-point", ...)
 # turn about itself, and neither does a thin rod to turn about its length: their matrices have rank 3 and 5. All ten
 # numbers can be read back from the 36.
 # %% [markdown] lang="zh"
-# 质量为正、而且 $I_c$ 正定时,它才正定。质点绕自身转动不具有动能,细杆绕自己的长轴转也是:它们的矩阵秩是 3 和 5。十个数都能从 36 个数里读回来。
+# 质量为正、而且 $I_c$ 正定时,它才正定。质点绕自身转动不具有动能,细杆绕自己的长轴转也是:它们的矩阵秩是 3 和 5。从这 36 个数里能把十个数全部读回来。
 # %%
 assert np.linalg.eigvalsh(heap.matrix()).min() > 0
 ball = tw.SpatialInertia(2.0, [0, 0, 0.1], np.zeros((3, 3)))
@@ -416,7 +416,7 @@ flips
 # Gravity has no moment about the centre of mass, so we may leave it out. `tw.simulate` integrates the three flights side by
 # side; nothing tells it that momentum and energy have to stay. They do. The panel of your guess is grey.
 # %% [markdown] lang="zh"
-# 重力对质心没有力矩,可以不算。`tw.simulate` 把三次飞行并排积分;没有人告诉它动量和能量必须守恒,结果却守住了。你猜的那一格是灰色的。
+# 重力对质心没有力矩,可以不算。`tw.simulate` 把三次飞行并排积分;程序里没有任何地方要求动量和能量守恒,结果却都守恒。你猜的那一格是灰色的。
 # %%
 moments, axes = np.linalg.eigh(locked.inertia_at_com)  # the principal axes, in the frame of the base
 thrown = tw.Builder("locked Go2", base="floating", root_inertia=locked, gravity=[0, 0, 0]).build()

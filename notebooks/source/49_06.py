@@ -7,8 +7,8 @@
 # %% [markdown] lang="zh"
 # # 49.6 RNEA:逆动力学
 #
-# 给定运动,需要什么样的力?递归牛顿-欧拉算法沿运动树走两遍:向外传递运动,向内传递力。这个笔记本让它一行一行地长出来,
-# 再说明重力在里面是什么,最后看看本章的伪代码错在哪里。
+# 给定运动,需要什么样的力?递归牛顿-欧拉算法沿运动树走两遍:向外传递运动,向内传递力。这个笔记本一行一行地写出它,
+# 再说明重力是怎样进入的,最后看看本章的伪代码错在哪里。
 # %%
 import twistwrench as tw
 
@@ -105,7 +105,7 @@ V[2]
 # The axis $S_i$ is fixed in body $i$ and moves with it; $\boldsymbol V_i \times S_i$ is the rate at which it does. (If its
 # numbers depended on $q$, as in a base with Euler angles, $\dot S_i \dot q_i$ would be added. Here they never do.)
 # %% [markdown] lang="zh"
-# 角速度是 1 + 2 rad/s;肘以 1 m/s 向左运动,在坐标系 2 里这就是 z 方向。这是 $X_2$ 的功劳。
+# 角速度是 1 + 2 rad/s;肘以 1 m/s 向左运动,在坐标系 2 里这就是 z 方向。这一步由 $X_2$ 完成。
 #
 # 对这一行求导,并用上 $X$ 的变化规律(49.5)。坐标系的运动留下的只有一个叉积:
 #
@@ -159,12 +159,12 @@ tw.ask("49.6-child", ...)
 #
 # $X_j^T$, because $X_j$ leads outward and equal power turns its transpose inward (49.4). From the tip inward:
 # %% [markdown] lang="zh"
-# 关节 $i$ 供给刚体 $i$ 和它外侧的一切。所以经过它的 wrench,等于刚体自身所需的,加上传给子连杆的;其中沿关节的那一份由电机提供:
+# 刚体 $i$ 和它外侧各刚体所需的力都要经过关节 $i$。所以经过它的 wrench,等于刚体自身所需的,加上传给各子连杆的;其中沿关节轴的分量由电机提供:
 #
 # $$\boldsymbol F_i = \hat I_i \boldsymbol a_i + \boldsymbol V_i \times^* \hat I_i \boldsymbol V_i +
 # \sum_{\lambda(j) = i} X_j^T \boldsymbol F_j, \qquad \boldsymbol\tau_i = S_i^T \boldsymbol F_i.$$
 #
-# 用 $X_j^T$,是因为 $X_j$ 向外,而功率相等使它的转置向内(49.4)。从末端向内:
+# 用 $X_j^T$,是因为 $X_j$ 从父到子,而由功率相等可知,它的转置从子到父(49.4)。从末端向内:
 # %%
 F, torques = B.copy(), np.zeros(2)
 for i in (2, 1):
@@ -225,7 +225,7 @@ def forces_of_motion(model, q, v, a):
 # %%
 tau = tw.rnea(model, q, v, a)
 difference = np.abs(forces_of_motion(model, q, v, a) - tau).max()
-print(f"yours against tw.rnea: {difference:.0e} of {np.abs(tau).max():.0f} N")
+print(f"the function above against tw.rnea: {difference:.0e} of {np.abs(tau).max():.0f} N")
 assert difference < 1e-12 * np.abs(tau).max()
 # %% [markdown] lang="en"
 # ### Fixed and floating
@@ -259,7 +259,7 @@ tw.ask("49.6-cost", ...)
 # The picture shows what is passed along the tree of Go2: each label is the quantity that passes through that joint, and the
 # width of the arrow is its size. On the site it moves: [RNEA as a film](../hands/film.md).
 # %% [markdown] lang="zh"
-# 下图是沿 Go2 的运动树传递的量:标注是经过该关节的量,箭头的粗细表示大小。网站上有会动的版本:[RNEA 电影](../hands/film.md)。
+# 下图是沿 Go2 的运动树传递的量:标注是经过该关节的量,箭头的粗细表示大小。网站上有会动的版本:[RNEA 动画](../hands/film.md)。
 # %%
 terms, kin = tw.rnea_terms(model, q, v, a), tw.forward_kinematics(model, q, v, a)
 V, A, F, own = (np.array(rows) for rows in (terms.V, terms.A, terms.F, terms.B))
@@ -308,7 +308,7 @@ assert np.isclose(tau @ v, rate, rtol=1e-7)
 # %% [markdown] lang="zh"
 # ## 重力:向上加速的世界,或十三份重量
 #
-# RNEA 从不提起连杆的重量,只是让世界向上加速。这样一样吗?
+# RNEA 里从头到尾没有出现连杆的重量,只是让世界向上加速。两者一样吗?
 # %% [markdown] lang="en"
 # **Exercise 49.6.2.** First in numbers: write the thirteen weights as wrenches, to be given to a robot without gravity as `f_ext`. Then the
 # proof, in words, in your folder. What is folded below is the answer.
@@ -390,7 +390,7 @@ tw.ask("49.6-hip", ...)
 # If the robot stands, the floor does that, and every wrench in the legs turns round. Left: held by the base, each joint
 # carries what hangs below it. Right: standing, each joint carries what is above it.
 # %% [markdown] lang="zh"
-# 如果机器人站着,这件事由地面来做,腿里的每个 wrench 都反过来。左:托住基座,每个关节承担挂在它下面的部分。
+# 如果机器人站着,托住它的是地面,腿中各关节传递的竖直力全都反向。左:托住基座,每个关节承担挂在它下面的部分。
 # 右:站立,每个关节承担在它上面的部分。
 # %%
 ground = np.zeros((model.nbodies, 6))
@@ -486,7 +486,7 @@ tw.ask("49.6-overwritten", ...)
 # %% [markdown] lang="en"
 # Now all three, run on Go2. Colour marks what is wrong; the white squares are right. Which tests would have passed?
 # %% [markdown] lang="zh"
-# 三处都在 Go2 上运行一遍。有颜色的地方是错的,白色的是对的。哪些检查会通过?
+# 把三处错误都在 Go2 上运行一遍。有颜色的地方是错的,白色的是对的。哪些检查会通过?
 # %%
 as_printed = {  # in the listing, what stands there and what is printed
     "1. overwritten": ("tau[i] = S", "F[i] = B[i]; tau[i] = S"),

@@ -8,7 +8,7 @@
 # # 49.7 ABA:正向动力学
 #
 # 给定各关节的力,机器人怎样加速?可以构造 $M$ 再求解。铰接体算法不用 $M$,只需要每个关节在外侧(远离基座)关节全部自由时
-# 所带动的惯量,即*表观惯量*。先用手感受它,再由它长出三遍递推。
+# 所带动的惯量,即*表观惯量*。先用手感受它,再由它推导出三遍递推。
 # %%
 import twistwrench as tw
 
@@ -40,7 +40,7 @@ rest = np.zeros(model.nv)
 #
 # Hold a rod by a hinge at its upper end and move the hinge. Everything is at rest before, and gravity is left out.
 # %% [markdown] lang="zh"
-# ## 手里的单摆
+# ## 握在手里的单摆
 #
 # 用手通过一个旋转关节握住杆的上端,移动这个关节。起初一切静止,不计重力。
 # %%
@@ -100,7 +100,7 @@ plt.show()
 # the velocities alone: the twists of 49.6, the bias acceleration $\boldsymbol c_i = \boldsymbol V_i \times S_i \dot q_i$, and
 # $\boldsymbol V_i \times^* \hat I_i \boldsymbol V_i$.
 # %% [markdown] lang="zh"
-# ## 两根杆,一行一行来
+# ## 两根杆,逐行推导
 #
 # 笔记本 49.6 的那条手臂:肘弯成直角,两个关节以 1 和 2 rad/s 转动,电机断电。它怎样加速?不管关节外侧挂着什么,
 # 所需的 wrench 对那里的刚体的加速度总是线性的:
@@ -240,7 +240,7 @@ def accelerations(model, q, v, tau):
 drop, qdd = accelerations(arm, bend, speeds, np.zeros(2)), tw.aba(model, q, v, tau)
 print("the arm:", drop, "rad/s²; does 49.6 agree?", tw.rnea(arm, bend, speeds, drop).round(12) + 0.0, "N m")
 difference = np.abs(accelerations(model, q, v, tau) - qdd).max()
-print(f"Go2, yours against tw.aba: {difference:.0e} of {np.abs(qdd).max():.0f} rad/s²")
+print(f"Go2, the functions above against tw.aba: {difference:.0e} of {np.abs(qdd).max():.0f} rad/s²")
 assert np.isclose(D, 1 / 3, rtol=0.01)
 assert np.allclose(Ia.diagonal()[3:], [0.25, 1, 1], rtol=0.01)
 assert np.allclose(IA1.diagonal()[[3, 5]], [1 + 1, 1 + 0.25], rtol=0.01)
@@ -257,7 +257,7 @@ print(inspect.getsource(articulated_body))
 # its parent feel, least and greatest mass over all directions, and the bias force; outward again the accelerations, seen
 # from a world that rises.
 # %% [markdown] lang="zh"
-# 同样的三遍在 Go2 上:它在空中跨步,电机断电。向外传 twist;向内传每个关节让父连杆感到的量,即各方向上最小和最大的质量,以及偏置力;
+# 在 Go2 上做同样的三遍:它在空中跨步,电机断电。向外传 twist;向内传父连杆通过每个关节感到的量,即各方向上最小和最大的表观质量,以及偏置力;
 # 再向外传加速度,从向上加速的世界看。
 # %%
 stride = rest.copy()
@@ -329,7 +329,7 @@ tw.ask("49.7-chain", ...)
 # move, drawn as above. On the site you hold such a chain and free its joints one by one: [Felt mass](../hands/felt.md).
 # %% [markdown] lang="zh"
 # 下面是六根这样的杆,稍有弯曲:每个关节处画的是前一根杆所要带动的表观质量,画法同上。在网站上可以捏住这样一串杆,
-# 逐个松开关节:[手感质量](../hands/felt.md)。
+# 逐个松开关节:[手上感到的质量](../hands/felt.md)。
 # %%
 def through_joints(model, q):
     """Composite inertia of each subtree, and its apparent inertia at the parent's side of the free joint."""
@@ -468,7 +468,7 @@ tw.exercises.check("49.7.2", forward_dynamics_two_ways)
 # %% [markdown] lang="zh"
 # ## 自由落体
 #
-# 机器人在空中被松手,电机全部断电。本章认为基座加速度的线性部分约为 (0, 0, −9.81)。你同意吗?
+# 在空中松开机器人,电机全部断电。本章认为基座加速度的线性部分约为 (0, 0, −9.81)。你同意吗?
 # %%
 tw.ask("49.7-knees", ...)
 

@@ -81,7 +81,7 @@ assert np.isclose(tw.kinetic_energy(model, q, v), sum(energies), rtol=1e-12)
 # accelerates with 1 rad/s², the shoulder not at all. Rod 2 alone moves. It needs the wrench $F = \hat I_2 S_2$, and the
 # elbow's motor supplies the part along its own axis:
 # %% [markdown] lang="zh"
-# ## 两根杆,一行一行来
+# ## 两根杆,逐行推导
 #
 # 在笔记本 49.6 那条肘弯成直角的手臂上,亲手再做一遍这些实验。先看第 2 列:肘以 1 rad/s² 加速,肩没有加速度。只有杆 2 在动。
 # 它需要的 wrench 是 $F = \hat I_2 S_2$,肘电机提供沿自己轴的那一份:
@@ -95,7 +95,7 @@ print(F.T, "M22:", S[2].T @ F)
 # A moment of $ml^2/3$, and 0.5 N for the middle of the rod. The whole wrench goes on to rod 1, $X_2^T$ inward, and the
 # shoulder's motor must hold against its part:
 # %% [markdown] lang="zh"
-# 力矩是 $ml^2/3$,另有 0.5 N 使杆的中点加速。整个 wrench 传给杆 1,用 $X_2^T$ 向内;肩电机要顶住属于自己的一份:
+# 力矩是 $ml^2/3$,另有 0.5 N 使杆的中点加速。整个 wrench 传给杆 1,用 $X_2^T$ 向内;肩电机要提供沿自己轴的那一份,才能保持不动:
 # %%
 F = X[2].T @ F
 print(F.T, "M12:", S[1].T @ F)
@@ -116,7 +116,7 @@ print(F.T, "M11:", S[1].T @ F)
 #
 # $$M_{kk} = S_k^T \hat I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
 # %% [markdown] lang="zh"
-# 杆 1 是 $\tfrac13$;杆 2 的中点离肩更远,是 $\tfrac1{12} + (1^2 + 0.5^2)$。对任意的树,从末端向内,每个关节再爬到基座:
+# 杆 1 是 $\tfrac13$;杆 2 的中点离肩更远,是 $\tfrac1{12} + (1^2 + 0.5^2)$。对任意的树,从末端向内,并且从每个关节一路爬到基座:
 #
 # $$M_{kk} = S_k^T \hat I^C_k S_k, \qquad M_{jk} = S_j^T F_j, \qquad F_{\lambda(j)} = {}^{j}\!X_{\lambda(j)}^T F_j.$$
 # %%
@@ -137,7 +137,7 @@ def matrix_of_inertia(model, q):
 # %%
 print(matrix_of_inertia(arm, bend))
 difference = np.abs(matrix_of_inertia(model, q) - M).max()
-print(f"Go2, yours against tw.crba: {difference:.0e} of {M.max():.0f} kg")
+print(f"Go2, the function above against tw.crba: {difference:.0e} of {M.max():.0f} kg")
 assert np.allclose(matrix_of_inertia(arm, bend), [[5 / 3, 1 / 3], [1 / 3, 1 / 3]], rtol=0.003)
 assert np.allclose(matrix_of_inertia(arm, bend), tw.crba(arm, bend), rtol=1e-12)
 assert difference < 1e-12 * M.max()
@@ -153,7 +153,7 @@ print(inspect.getsource(composite_rigid_body))
 # %% [markdown] lang="en"
 # Inward goes a sum: what each joint of Go2 would move if all joints beyond it were locked. The base carries everything.
 # %% [markdown] lang="zh"
-# 向内传的是一个和:外侧关节全部锁死时,Go2 的每个关节要带动多少。基座承载着一切。
+# 向内传的是一个和:外侧关节全部锁死时,Go2 的每个关节要带动多少。基座承载全部质量。
 # %%
 terms = tw.crba_terms(model, q)
 masses = [float(IC[3, 3]) for IC in terms.IC]
@@ -313,18 +313,18 @@ else:
 # %% [markdown] lang="en"
 # ## What it costs
 #
-# The table in 49.1 calls CRBA linear, 49.8 says $O(N^2)$.
+# How does the work grow with the number of links? The chapter does not say the same in all places.
 # %% [markdown] lang="zh"
 # ## 计算代价
 #
-# 49.1 的表格说 CRBA 是线性的,49.8 说是 $O(N^2)$。
+# 计算量怎样随连杆数增长?本章前后的说法并不一致。
 # %%
 tw.ask("49.8-chain", ...)
 # %% [markdown] lang="en"
-# Each joint climbs to the base, so the cost is $O(N \cdot \mathrm{depth})$: both are right for some robot. We count the
-# lines that are executed, for a chain, for legs of three links, and for a bush, where the base carries every link.
+# The table in 49.1 calls CRBA linear, 49.8 says $O(N^2)$. Each joint climbs to the base, so the cost is
+# $O(N \cdot \mathrm{depth})$: both are right for some robot. We count the lines that are executed, for a chain, for legs of three links, and for a bush, where the base carries every link.
 # %% [markdown] lang="zh"
-# 每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$:对某种机器人来说,两种说法都对。我们数一数执行的行数:链、每条腿三个连杆的多腿机器人,
+# 49.1 的表格说 CRBA 是线性的,49.8 说是 $O(N^2)$。每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$:对某种机器人来说,两种说法都对。我们数一数执行的行数:链、每条腿三个连杆的多腿机器人,
 # 以及所有连杆都直接挂在基座上的“灌木”。
 # %% setup="yes"
 carriers = {

@@ -98,7 +98,7 @@ assert np.allclose(sum(parts[1:]), h_run[3:], rtol=1e-12)
 #
 # $h_G$ 对速度是线性的:$h_G = A_G\dot q$。代入 $V_i = J_i \dot q$,上面的和就给出
 # $A_G = \sum_i {}^G\!X_i^*\, I_i J_i$。(本章把惯量换到 $G$ 处,却让 $J_i$ 留在刚体自己的坐标系里:两个坐标系混用,得到的是另一个矩阵。)
-# 这样算,每个刚体都要碰到它内侧的所有关节。**CCRBA** 对每个关节只算一次:关节 $i$ 的单位速度让它的子树像一个刚体那样运动,
+# 这样算,每个刚体都要用到它内侧的所有关节。**CCRBA** 对每个关节只算一次:关节 $i$ 的单位速度让它的子树像一个刚体那样运动,
 # 动量是 $I^C_i S_i$(49.8),从 $G$ 处看就是第 $i$ 列。不用爬到基座,所以是 $O(N)$。
 # %%
 A_G = tw.centroidal_map(model, q)
@@ -268,7 +268,7 @@ assert np.allclose(held.forces.sum(axis=0) + model.mass * model.gravity, 0, rtol
 # ## 三种步态
 #
 # 现在让 Go2 动起来。关节走光滑的曲线:每条腿前后摆动,向前摆时弯膝;躯干上下起伏,跳跑(bound)时还会俯仰。
-# 运动是给定的,我们要问的是:外界得为此做些什么。
+# 运动是给定的,我们来算:这样运动,外界要提供多大的力。
 # %%
 gaits = dict(zip(("slow walk", "trot", "bound"), GAITS.values()))
 for gait in gaits.values():  # v is the rate of q: see it at a foot
@@ -295,7 +295,7 @@ plt.show()
 # %% [markdown] lang="zh"
 # ## 一个步态周期里的 $h_G$
 #
-# 小跑和跳跑每个周期把躯干抬起两次:见 $l_z$;这里的慢走 $l_G$ 保持平均值,没有画。(注意 $k_G$ 的刻度:每种步态各不相同。你猜的那一列是灰色的。)
+# 小跑和跳跑时,躯干每个周期上升两次(见 $l_z$);这里的慢走 $l_G$ 保持平均值,没有画。(注意 $k_G$ 的刻度:每种步态各不相同。你猜的那一列是灰色的。)
 # %%
 largest_k_y = tw.ask("49.10-gait", ...)
 largest_k_y

@@ -9,7 +9,7 @@
 # %% [markdown] lang="zh"
 # # 49.11 实操:从公式到 Pinocchio
 #
-# 最后一个笔记本把一切摆在一起:本章的每个公式、本包里的函数、Pinocchio 里的调用;本章的七个测试;
+# 最后一个笔记本把前面的内容放在一起对照:本章的每个公式、本包里的函数、Pinocchio 里的调用;本章的七个测试;
 # 以及控制器每个周期都要的四个量。
 #
 # Pinocchio 用 `pip install pin` 安装。PyPI 上名叫 `pinocchio` 的是另一个软件包。没有安装它,除了比较之外都可以照做。
@@ -359,7 +359,7 @@ tw.exercises.check("49.11.3", gravity_from_map)
 # Now one step of a controller. The robot stands on four feet that stay where they are, its trunk is moving, and it is asked
 # to brake and to rise with 1 m/s². First without any motion:
 # %% [markdown] lang="zh"
-# 现在走控制器的一步。机器人四脚着地、脚不动,躯干在运动;要求它减速,并以 1 m/s² 的加速度上升。先看没有速度的情形:
+# 现在做控制器的一步计算。机器人四脚着地、脚不动,躯干在运动;要求它减速,并以 1 m/s² 的加速度上升。先看没有速度的情形:
 # %%
 tw.ask("49.11-rise", ...)
 # %% setup="yes"

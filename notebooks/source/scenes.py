@@ -5,9 +5,9 @@
 # compares the smaller robot with the whole one, measures the error that you make if the arms do move, asks whether the
 # robot can stand, and chooses the cheapest model of a walk that is exact enough.
 # %% [markdown] lang="zh"
-# # 场景:只为需要的东西建模
+# # 场景:只为需要的部分建模
 #
-# 人形机器人站着不动手臂时,方程里不需要手臂。这个笔记本先锁住关节,把小机器人与整个机器人比较,再看手臂其实在动时误差多大,然后判断机器人是否站得住,最后为一段行走选出够用的模型中代价最小的一个。
+# 人形机器人站着不动手臂时,方程里不需要手臂。这个笔记本先锁住关节,把缩小后的模型与整个机器人比较,再看手臂其实在动时误差多大,然后判断机器人是否站得住,最后为一段行走选出够用的模型中代价最小的一个。
 # %%
 import time
 

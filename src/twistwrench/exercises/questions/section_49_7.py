@@ -10,9 +10,10 @@ from . import Facts
 
 
 def rod() -> Facts:
-    """Mass of a rod of 2 kg that a hand feels across it, through a free hinge."""
-    model = tw.chain(1, mass=2.0)
-    free = tw.aba_terms(model, [0.0], [0.0], [0.0]).Ia[1]
+    """Mass of a rod of 2 kg and 1 m, without thickness, that a hand feels across it, through a free hinge."""
+    thin = tw.SpatialInertia(2.0, [0, 0, -0.5], np.diag([1 / 6, 1 / 6, 0])).matrix()
+    S = tw.Revolute("y").subspace()
+    free = thin - thin @ S @ np.linalg.inv(S.T @ thin @ S) @ S.T @ thin
     return {"truth": float(free[3, 3]), "whole": 2.0, "half": 1.0}
 
 
