@@ -56,6 +56,7 @@ ax = plot.robot(model, q)
 places = np.array([p, *points.values()])
 plot.arrows(places, [v_base, *velocities.values()], scale=0.22, texts=["base", *points], label="velocity", ax=ax)
 ax.view_init(elev=50, azim=-80)
+ax.set(xticks=[1.8, 2.2])
 ax.legend()
 plt.show()
 # %% [markdown] lang="en"

@@ -61,7 +61,7 @@ for frame, name in [(np.eye(4), "the world"), (T, "T(0)"), (T_later, "T(1 s)")]:
             width=0.007,
             zorder=3,
         )
-    ax.text(*(frame[:2, 3] - 0.13 * frame[:2, 1]), name, ha="center", va="top", fontsize=10)
+    ax.text(*(frame[:2, 3] - 0.2 * frame[:2, 1]), name, ha="center", va="top", fontsize=10)
 corners = np.array([[0, 0, 0, 1], [0.3, 0, 0, 1], [0, 0.3, 0, 1]]).T  # three points of the body
 ways = (T_later - T) @ corners
 ax.quiver(

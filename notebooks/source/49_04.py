@@ -273,10 +273,10 @@ for place in places:
     ax.plot(*np.stack([np.zeros(3), place], axis=-1), ":", color=plot.COLOURS["grey"], linewidth=1)
 plot.arrows(places, held.forces, scale=0.006, label="f at each foot", ax=ax)
 colour = plot.COLOURS["blue"]
-names = [name[:2] for name in model.feet]
-plot.arrows(
-    np.zeros(3), in_world[:, :3], scale=0.01, colour=colour, texts=names, label="moment about the origin", ax=ax
-)
+plot.arrows(np.zeros(3), in_world[:, :3], scale=0.01, colour=colour, label="moment about the origin", ax=ax)
+for name, moment in zip(model.feet, in_world[:, :3]):
+    behind_tip = 0.01 * moment + 0.05 * moment / np.linalg.norm(moment)
+    ax.text(*behind_tip, name[:2], color=colour, fontsize=9, ha="center", va="center")
 ax.text(0, 0, 0.03, "origin of the world", ha="center", fontsize=9)
 ax.view_init(elev=35, azim=-75)
 ax.legend(loc="upper left")
@@ -513,7 +513,9 @@ for ax, (name, wrench) in zip(axes, stands.items()):
     assert (least.min() >= 0) == (name != "impossible")
     plot.sole(corners, wrench, text="COP" if name == "quiet" else "", ax=ax)
     for (x, y, _), force in zip(corners, least):
-        ax.text(y, x, f"{force:.0f} N", ha="center", va="bottom" if x > 0 else "top", fontsize=9)
+        ax.text(
+            y, x + np.copysign(0.003, x), f"{force:.0f} N", ha="center", va="bottom" if x > 0 else "top", fontsize=9
+        )
     ax.set(title=name, xlim=(0.05, -0.05), ylim=(-0.1, 0.13))
 plt.show()
 assert abs(tw.center_of_pressure(stands["impossible"])[0]) > d_x

@@ -322,7 +322,8 @@ else:
 tw.ask("49.8-chain", ...)
 # %% [markdown] lang="en"
 # The table in 49.1 calls CRBA linear, 49.8 says $O(N^2)$. Each joint climbs to the base, so the cost is
-# $O(N \cdot \mathrm{depth})$: both are right for some robot. We count the lines that are executed, for a chain, for legs of three links, and for a bush, where the base carries every link.
+# $O(N \cdot \mathrm{depth})$: both are right for some robot. We count the lines that are executed, for a chain, for legs
+# of three links, and for a bush, where the base carries every link.
 # %% [markdown] lang="zh"
 # 49.1 的表格说 CRBA 是线性的,49.8 说是 $O(N^2)$。每个关节都要爬到基座,所以代价是 $O(N \cdot \mathrm{depth})$:对某种机器人来说,两种说法都对。我们数一数执行的行数:链、每条腿三个连杆的多腿机器人,
 # 以及所有连杆都直接挂在基座上的“灌木”。

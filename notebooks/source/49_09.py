@@ -58,6 +58,7 @@ ax = plot.robot(model, q, com=False, ax=figure.add_subplot(projection="3d"))
 speeds = [f"{np.linalg.norm(velocity):.1f} m/s" for velocity in foot_velocity]
 blue = plot.COLOURS["blue"]
 plot.arrows(feet, foot_velocity, scale=0.1, colour=blue, label="J_c q̇, velocity of the foot", texts=speeds, ax=ax)
+ax.set(xticks=[-0.2, 0.2], yticks=[-0.1, 0.1], zticks=[0, 0.2])
 ax.legend(loc="upper left", fontsize=8)
 plt.show()
 for name, velocity in zip(model.feet, foot_velocity):
@@ -105,7 +106,7 @@ assert np.array_equal(np.abs(d.J_c.T[3:6]) > 0.5, np.tile(np.eye(3, dtype=bool),
 # %% [markdown] lang="zh"
 # ## 在任何状态下都成立
 #
-# 方程对吗?所有的量都随机抽取。`aba` 不知道 $J_c$:每个足端力都作为对小腿的 wrench 交给它。
+# 方程对吗?所有的量都随机抽取。`aba` 不用 $J_c$:每个足端力都作为对小腿的 wrench 交给它。
 # 它算出加速度,代回去两边应当相等。(脚会滑动、会腾空。要求脚不动,那是另一个方程 $J_c\ddot q + \dot J_c\dot q = 0$。)
 # %%
 some_q = model.random_configuration(rng=rng)
@@ -171,6 +172,8 @@ plot.arrows(at_hips, forces, scale=0.006, colour=red, label="force of a leg", te
 of_leg = "moment of a leg, its motor's among it"
 plot.arrows(at_hips, moments, scale=0.045, colour=purple, label=of_leg, texts=newton_metres, ax=trunk)
 plot.arrows(middle, own_weight, scale=0.006 / 3, colour=blue, label="weight, a third as long", ax=trunk)
+for text in trunk.texts:
+    text.set_bbox({"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.5})
 trunk.set_title("cut at the hips: the trunk\nI a + V ×* I V = weight + Σ (τ, f) of the legs")
 plot.robot(model, q, com=False, ax=whole)
 plot.arrows(feet, ground, scale=0.004, colour=red, label="λ, force of the ground", ax=whole)

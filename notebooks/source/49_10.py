@@ -56,10 +56,10 @@ h_G = sum(to_G[i] @ model.inertia[i].momentum(motion.twist[i]) for i in bodies)
 print("k_G", h_G[:3].round(4), "kg m²/s   l_G", h_G[3:].round(3), "kg m/s")
 assert np.allclose(h_G, tw.centroidal_momentum(model, q, v), rtol=1e-12)
 # %% [markdown] lang="en"
-# Here it is on a running Go2, from the side. Blue: the linear momentum of each body at its own centre of mass. At $G$: their
-# sum $l_G$; and $k_G$, the turning of all of them about $G$.
+# Here it is on a running Go2, from the side. Blue: the linear momentum of each body at its own centre of mass, drawn three
+# times as long. At $G$: their sum $l_G$; and $k_G$, the turning of all of them about $G$.
 # %% [markdown] lang="zh"
-# 画在奔跑的 Go2 上,从侧面看。蓝色:每个刚体在自己质心处的线动量。在 $G$ 处:它们的和 $l_G$,以及 $k_G$,即所有刚体绕 $G$ 的转动。
+# 画在奔跑的 Go2 上,从侧面看。蓝色:每个刚体在自己质心处的线动量,画成三倍长。在 $G$ 处:它们的和 $l_G$,以及 $k_G$,即所有刚体绕 $G$ 的转动。
 # %%
 run_q, run_v = move(0.09, [*GAITS.values()][-1])
 run = tw.forward_kinematics(model, run_q, run_v)
@@ -70,8 +70,9 @@ plot.side_view(model, run_q, ax=ax)
 side = [0, 2]
 for T, body, twist in list(zip(run.placement, model.inertia, run.twist))[1:]:
     middle, momentum = T.act(body.com), T.rotation @ body.momentum(twist)[3:]
-    tip = middle[side] + 0.02 * momentum[side]
-    ax.annotate("", tip, middle[side], arrowprops={"arrowstyle": "-|>", "color": plot.COLOURS["blue"], "lw": 1.5})
+    tip = middle[side] + 3 * 0.02 * momentum[side]
+    thin = {"arrowstyle": "-|>", "color": plot.COLOURS["blue"], "lw": 1.5, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", tip, middle[side], arrowprops=thin, zorder=5)
 red, purple = plot.COLOURS["vermilion"], plot.COLOURS["purple"]
 thick = {"arrowstyle": "-|>", "color": red, "lw": 3, "shrinkA": 0}
 ax.annotate("", G[side] + 0.02 * h_run[[3, 5]], G[side], arrowprops=thick)
@@ -79,7 +80,7 @@ ax.annotate("l_G", G[side] + 0.02 * h_run[[3, 5]], (4, 4), textcoords="offset po
 turn = np.linspace(2.4, -2.4, 60) * np.sign(h_run[1])  # against y: a positive k_y turns clockwise
 circle = G[side] + 0.1 * np.stack([np.cos(turn), np.sin(turn)], axis=-1)
 ax.plot(*circle.T, color=purple, linewidth=3)
-ax.set(xlim=(-0.35, 0.85), ylim=(0.05, 0.44))
+ax.set(xlim=(-0.35, 0.95), ylim=(0.05, 0.44))
 ax.annotate("", circle[-1], circle[-4], arrowprops={"arrowstyle": "-|>", "color": purple, "lw": 3})
 ax.annotate("k_G", circle[8], (-8, 6), textcoords="offset points", color=purple, fontsize=12)
 plt.show()
@@ -475,6 +476,7 @@ for name, colour in zip(moments, ("blue", "vermilion")):
 axes[0].set_yticks([0.1, 1, 10], ["0.1", "1", "10"])
 axes[1].set_yticks([0.1, 1, 10, 100], ["0.1", "1", "10", "100"])
 axes[1].axhline(half_length, color="k", linestyle=":")
+axes[1].set_ylim(top=600)
 axes[1].text(0.25, half_length, "from the middle to the front feet", va="bottom", fontsize=8)
 axes[0].set(ylabel="moment [N m]", title="what k̇_G = 0 leaves out")
 axes[1].set(ylabel="shift [mm]", title="shift of the centre of pressure")
@@ -531,7 +533,7 @@ for k, (model_name, colour) in enumerate({"LIPM": "vermilion", "SRBM": "blue"}.i
     bars = ax.bar(
         x + 0.4 * k - 0.2, [row[k] for row in off.values()], 0.4, color=plot.COLOURS[colour], label=model_name
     )
-    ax.bar_label(bars, fmt="%.3g", fontsize=8)
+    ax.bar_label(bars, fmt="%.3g", fontsize=8, label_type="center", color="w")
 ax.axhline(half_length, color="k", linestyle=":")
 ax.set(xticks=x, xticklabels=off, yscale="log", ylim=(0.1, 2000), ylabel="shift of the centre of pressure [mm]")
 ax.set_yticks([0.1, 1, 10, 100, 1000], ["0.1", "1", "10", "100", "1000"])

@@ -22,9 +22,9 @@ def newton_euler(tree: Tree, qd: list[Array], qdd: list[Array], f_ext: list[Arra
     """Run the RNEA, two passes (RBDA table 5.1).
 
     The index is the frame: V[i] is the twist of body i in frame i. Wrenches go inward by X[i]ᵀ, where the chapter
-    writes X*; and F[i] is set in pass 1, before the children add to it. B[i] keeps what F[i] is then: the wrench that the
-    motion of body i alone needs, less f_ext[i]. `bias_wrench` is V ×* I V, what a steady motion needs. The rotor of the
-    motor, geared to joint i, adds rotor[i] q̈ to τ there.
+    writes X*; and F[i] is set in pass 1, before the children add to it. B[i] keeps what F[i] is then: the wrench that
+    the motion of body i alone needs, less f_ext[i]. `bias_wrench` is V ×* I V, what a steady motion needs. The rotor of
+    the motor, geared to joint i, adds rotor[i] q̈ to τ there.
     """
     parent, S, I, X, rotor = tree.parent, tree.S, tree.I, tree.X, tree.rotor
     V, A, B, F, tau = tree.zeros(5)
