@@ -495,7 +495,7 @@ assert (np.abs(feet[:, 1]) <= d_x * feet[:, 5]).all()
 # Three ways to stand, seen from above: quietly (the least forces at eight corners that hold the robot), about to tip
 # forward, and beyond: there the heel would have to be *glued* to the floor. The numbers are the forces at the corners.
 # %% [markdown] lang="zh"
-# 三种站法,从上往下看:安静站立(撑住机器人的八个角上的最小力);快要向前倒;已经越界:脚跟得*粘*在地上才行。
+# 三种站法,从上往下看:平稳站立(撑住机器人的八个角上的最小力);快要向前倒;已经越界:脚跟得*粘*在地上才行。
 # 数字是四个角上的力。
 # %%
 eight = corner_names + [name.replace("left", "right") for name in corner_names]

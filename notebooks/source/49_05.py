@@ -205,7 +205,7 @@ for k in range(2):
         plot.ellipsoids(model, q, ax=ax)
     ax.set_title("all joints locked: one body" if k else "thirteen bodies")
     ax.view_init(elev=18, azim=-65)
-    ax.set(xticks=[-0.3, 0, 0.3], yticks=[-0.1, 0.1], zticks=[0, 0.2])
+    ax.set(xticks=[-0.3, 0.3], yticks=[-0.1, 0.1], zticks=[0, 0.2])
 plt.show()
 lengths, _ = plot.semi_axes(locked)
 print("semi-axes of the locked robot", lengths.round(3), "m")

@@ -199,7 +199,7 @@ assert np.allclose(half[3:] + np.cross(V_slider[:3], V_slider[3:]), [-(w**2) * 0
 # Row 0 of `F` is what the wall bears. That is RNEA. For any tree, loop over all bodies: `tree.outward` counts up, since
 # parents have smaller numbers, and `v_slice` finds the entries of joint $i$ (one for a hinge, six for a free base).
 # %% [markdown] lang="zh"
-# `F` 的第一行是墙所承受的。这就是 RNEA。对任意的树,只要对全部刚体循环:父连杆的编号总比子连杆小,所以 `tree.outward` 从小到大数;
+# `F` 的第 0 行是墙所承受的。这就是 RNEA。对任意的树,只要对全部刚体循环:父连杆的编号总比子连杆小,所以 `tree.outward` 从小到大数;
 # `v_slice` 给出关节 $i$ 在向量里的位置(旋转关节一个数,自由的基座六个数)。
 # %%
 def forces_of_motion(model, q, v, a):

@@ -181,7 +181,7 @@ plot.arrows(tw.center_of_mass(model, q), model.mass * model.gravity, scale=0.004
 whole.set_title("cut at the feet: the base's rows\nM_bb q̈_b + M_bj q̈_j + h_b = J_c,bᵀ λ")
 for ax in (trunk, whole):
     ax.set(xlim=(-0.3, 0.3), ylim=(-0.2, 0.2), zlim=(0, 0.4), box_aspect=(0.6, 0.4, 0.4), yticks=[-0.2, 0, 0.2])
-    ax.set(xticks=[-0.2, 0, 0.2], zticks=[0, 0.2, 0.4])
+    ax.set(xticks=[-0.2, 0.2], zticks=[0, 0.2, 0.4])
 trunk.set(zlim=(0.1, 0.4), box_aspect=(0.6, 0.4, 0.3))
 trunk.view_init(elev=38, azim=-55)
 trunk.legend(loc="upper left", fontsize=8)
