@@ -13,7 +13,7 @@ def rod() -> Facts:
     """Mass of a rod of 2 kg and 1 m, without thickness, that a hand feels across it, through a free hinge."""
     thin = tw.SpatialInertia(2.0, [0, 0, -0.5], np.diag([1 / 6, 1 / 6, 0])).matrix()
     S = tw.Revolute("y").subspace()
-    free = thin - thin @ S @ np.linalg.inv(S.T @ thin @ S) @ S.T @ thin
+    free = thin - thin @ S @ np.linalg.inv(S.mT @ thin @ S) @ S.mT @ thin
     return {"truth": float(free[3, 3]), "whole": 2.0, "half": 1.0}
 
 
