@@ -197,7 +197,7 @@ def run_grade(args: argparse.Namespace) -> int:
 
     def ended(found: list[Graded], one: Graded, of: int) -> None:
         so_far[:] = found
-        counts = f"{one.points:.2f} / {len(one.marks)}"
+        counts = f"{one.points:.2f} / {len(one.marks)}" if one.marks else "!"
         print(f"{len(found)}/{of}  {one.student}  {counts}  {one.seconds:.0f} s", file=sys.stderr, flush=True)
         if args.csv is not None:
             write_text(args.csv, as_csv(found, seed, language))

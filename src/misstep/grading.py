@@ -32,19 +32,22 @@ class Graded:
     Attributes
     ----------
     student : str
-        The name of the folder.
+        The name of the folder, or what stands before the names of the files.
     marks : dict
-        By the number of the exercise.
+        By the number of the exercise; none where this is no student, but what was handed in without a name.
     seconds : float
         That it took.
     remarks : tuple of Text
         What an instructor should look at: files that are missing, or have another name.
+    counted : bool
+        Whether the hidden file was handed in that knows of hints and solutions.
     """
 
     student: str
     marks: dict[str, Checked]
     seconds: float
     remarks: tuple[Text, ...] = ()
+    counted: bool = True
 
     @property
     def points(self) -> float:
@@ -107,11 +110,14 @@ def grade(
     books: list[Workbook] = []
 
     def graded(one: Submission) -> Graded:
+        if not one.of_student:
+            return Graded(one.student, {}, 0.0, one.remarks)
         start = time.perf_counter()
         with reader(one.folder, files=one.files) as book:
             books.append(book)
             marks = {exercise.id: _mark(book, exercise) for exercise in exercises}
-        return Graded(one.student, marks, time.perf_counter() - start, one.remarks)
+        counted = (one.folder / course.state_file).is_file()
+        return Graded(one.student, marks, time.perf_counter() - start, one.remarks, counted)
 
     with (
         tempfile.TemporaryDirectory(prefix="misstep-", ignore_cleanup_errors=True) as room,

@@ -7,7 +7,7 @@ import io
 from collections.abc import Iterator, Sequence
 from html import escape
 
-from .checked import STYLE, WORDS, Checked, verdict_html
+from .checked import STATES, STYLE, WORDS, Checked, verdict_html
 from .exercise import Exercise
 from .grading import Graded
 from .text import Language, Text, columns, say
@@ -23,9 +23,11 @@ SEED = Text(
     "随机数据：--seed {seed}。每题一分；文字作答请自行批阅。",
 )
 LEGEND = Text(
-    "A dot: to do. A question mark for each hint, an exclamation mark where the solution was shown.",
-    "圆点：未做。每要一条提示记一个问号，看过解答记一个感叹号。",
+    "A dot: to do. A question mark for each hint, an exclamation mark where the solution was shown. A dash beside the "
+    "points: the hidden file that counts both was not handed in.",
+    "圆点：未做。每看一条提示记一个问号，看过解答记一个感叹号。得分旁有短横：没有交记录这两项的隐藏文件。",
 )
+UNKNOWN = "–"  # in place of a number that nobody knows
 TITLE, TO_READ = Text("The exercises of the class", "全班练习"), Text("In words, to be read", "文字作答（请批阅）")
 REMARKS, MESSAGES = Text("To look at", "请留意"), Text("Messages", "消息")
 
@@ -54,12 +56,10 @@ def as_table(found: Sequence[Graded], seed: int, language: Language) -> str:
     lines = [_padded(student, wide) + "".join(_padded(head, 14) for head in heads)]
     for one in found:
         marks = one.marks.values()
-        counts = (
-            sum(sum(m.hints.values()) for m in marks),
-            sum(m.solution for m in marks),
-            sum(m.words is not None for m in marks),
-        )
-        cells = (f"{one.points:.2f} / {len(one.marks)}", *map(str, counts))
+        used = sum(sum(m.hints.values()) for m in marks), sum(m.solution for m in marks)
+        words = sum(m.words is not None for m in marks)
+        counts = (*(used if one.counted else (UNKNOWN, UNKNOWN)), words)
+        cells = (f"{one.points:.2f} / {len(one.marks)}", *map(str, counts)) if one.marks else ()
         lines.append((_padded(one.student, wide) + "".join(_padded(cell, 14) for cell in cells)).rstrip())
         lines += [f"  ! {remark.of(language)}" for remark in one.remarks]
     return "\n".join([*lines, "", SEED.fill(seed=seed).of(language)])
@@ -87,14 +87,15 @@ def _rows(one: Graded, language: Language) -> Iterator[tuple[object, ...]]:
     for remark in one.remarks:
         yield *[""] * 9, remark.of(language), ""
     for number, mark in one.marks.items():
-        share, solution = 1 / len(mark.functions), int(mark.solution)
+        share, solution = 1 / len(mark.functions), int(mark.solution) if one.counted else ""
         for name, verdict in mark.functions.items():
             points = f"{share if verdict.state == 'done' else 0:.4g}", f"{share:.4g}"
             why = " ".join(verdict.slips), verdict.how, _reason(verdict, language)
-            yield number, name, verdict.state, *points, mark.hints.get(name, 0), solution, *why, ""
+            state, hints = STATES[verdict.state].of(language), mark.hints.get(name, 0) if one.counted else ""
+            yield number, name, state, *points, hints, solution, *why, ""
         if WORDS in mark.verdicts:
-            name, state = mark.exercise.answer_name, mark.verdicts[WORDS].state
-            yield number, name, state, "", "", 0, solution, "", "", "", mark.words or ""
+            name, state = mark.exercise.answer_name, STATES[mark.verdicts[WORDS].state].of(language)
+            yield number, name, state, "", "", 0 if one.counted else "", solution, "", "", "", mark.words or ""
 
 
 def _harmless(cell: str) -> str:
@@ -114,9 +115,12 @@ def _reason(verdict: Verdict, language: Language) -> str:
 
 def as_html(found: Sequence[Graded], seed: int, language: Language) -> str:
     """Return a page: the points of all, their answers in words beside the model answer, and every message."""
+    everyone, found = found, [one for one in found if one.marks]
     exercises = [mark.exercise for mark in found[0].marks.values()] if found else []
     body = [f"<p>{SEED.fill(seed=seed).of(language)}<br>{LEGEND.of(language)}</p>", _points(exercises, found, language)]
-    remarks = [(one.student, " ".join(remark.of(language) for remark in one.remarks)) for one in found if one.remarks]
+    remarks = [
+        (one.student, " ".join(remark.of(language) for remark in one.remarks)) for one in everyone if one.remarks
+    ]
     if remarks:
         items = "".join(f"<li><b>{escape(student)}</b>: {escape(text)}</li>" for student, text in remarks)
         body.append(f"<h2>{REMARKS.of(language)}</h2><ul>{items}</ul>")
@@ -133,7 +137,9 @@ def _points(exercises: Sequence[Exercise], found: Sequence[Graded], language: La
     rows = [f"<th></th><th>{HEADS[1].of(language)}</th>{''.join(heads)}"]
     for k, one in enumerate(found):
         cells = "".join(_cell(mark, _place(k, number)) for number, mark in one.marks.items())
-        rows.append(f"<th>{escape(one.student)}</th><td>{one.points:.2f}</td>{cells}")
+        rows.append(
+            f"<th>{escape(one.student)}</th><td>{one.points:.2f}{'' if one.counted else ' ' + UNKNOWN}</td>{cells}"
+        )
     return f'<div class="tw-scroll">{_table(rows)}</div>'
 
 
@@ -176,7 +182,7 @@ def _messages(one: Graded, student: int, language: Language) -> str:
             each = (f'<div class="tw-wrong">{verdict_html(verdict, language, LEVELS[-1])}</div>' for verdict in wrong)
             shown += f'<div id="{_place(student, number)}">{"".join(each)}</div>\n'
             n += len(wrong)
-    return _folded(f"{one.student}: {n} {Text('wrong', '有误').of(language)}", shown)
+    return _folded(f"{one.student}: {n} {Text('wrong', '处有误').of(language)}", shown)
 
 
 def _folded(title: str, text: str) -> str:

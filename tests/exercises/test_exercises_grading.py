@@ -54,7 +54,9 @@ def found(room):
 
 def test_each_student_has_the_points_of_what_is_right(found):
     points = {one.student: {number: mark.points for number, mark in one.marks.items()} for one in found}
-    assert list(points) == ["ada", "bela", "chen", "dora", "emil"]
+    assert list(points)[:-1] == ["ada", "bela", "chen", "dora", "emil"]
+    assert found[-1].marks == {}
+    assert "notes.txt" in found[-1].remarks[0].en
     assert set(points["ada"].values()) == {1}
     assert points["bela"] == {"49.0.1": 0, "49.0.2": 1, "49.0.3": 0, "49.3.3": 0, "49.6.3": 0}
     assert sum(points["chen"].values()) == sum(points["dora"].values()) == sum(points["emil"].values()) == 0
@@ -169,7 +171,7 @@ def test_answers_are_found_under_the_names_that_they_are_handed_in_with(tmp_path
     assert found["emil"][0] == 1
     assert "ex_49_0 (1).py" in found["emil"][1]
     assert found["fay"] == (0, "No exercises were found here. Here are: homework.pdf.")
-    assert found["gus"] == (0, "Not there: ex_49_0.py.")
+    assert found["gus"] == (0, "Not there: ex_49_0.py. Here are also: answers.py.")
 
 
 def test_every_file_of_a_student_is_found(tmp_path):
@@ -229,6 +231,112 @@ def packed(tree):
         for place, held in tree.items():
             archive.writestr(place + "ex_49_0.py" if held == 1 else place, "x = 1\n" if held == 1 else packed(held))
     return made.getvalue()
+
+
+def handed(folder, tree):
+    """Write files; return by student the answers and the remarks."""
+    for name, text in tree.items():
+        made = folder / "class" / name
+        made.parent.mkdir(parents=True, exist_ok=True)
+        made.write_bytes(text if isinstance(text, bytes) else text.encode())
+    (folder / "room").mkdir()
+    found = submissions(COURSE, [folder / "class"], folder / "room", ["49.6", "49.7"])
+    assert all(one.of_student or not one.files for one in found)
+    return {
+        one.student: ([x.read_text(encoding="utf-8") for x in one.files.values()], " ".join(r.en for r in one.remarks))
+        for one in found
+    }
+
+
+SIX, SEVEN = "ex_49_6.py", "ex_49_7.py"
+
+
+def test_files_of_many_students_in_one_folder_belong_to_those_whose_names_they_have(tmp_path):
+    names = {
+        "adalovelace_1_11_ex_49_6.py": "ada 6",
+        "adalovelace_1_12_ex_49_7-1.py": "ada 7",
+        "boli_LATE_2_13_final.py": "bo",
+        "liwei_3_14_ex_49_6.py": "li wei 6",
+        "liwei_4_15_ex_49_6.py": "li wei 6",
+        "zhang_5_16_mine.zip": packed({"x/": 1}),
+        "yan_6_17_mine.rar": "",
+    }
+    found = handed(tmp_path, names)
+    assert sorted(found) == ["adalovelace", "boli", "liwei_3", "liwei_4", "yan", "zhang"]
+    assert found["adalovelace"] == (["ada 6", "ada 7"], "ex_49_7-1.py was taken for ex_49_7.py.")
+    assert found["boli"] == ([], "No exercises were found here. Here are: final.py.")
+    assert found["liwei_3"][0] == found["liwei_4"][0] == ["li wei 6"]
+    assert "mine.rar: cannot be opened, unpack it." in found["yan"][1]
+
+
+@pytest.mark.parametrize(
+    ("names", "students"),
+    [
+        ([f"ada {SIX}", f"ada-{SEVEN}", f"张三_{SIX}"], ["ada", "张三"]),
+        ([SIX, f"old_{SIX}"], ["class"]),
+        ([f"ada_{SIX}", f"ada_{SEVEN}"], ["class"]),
+        ([f"adalovelace_1_11_{SIX}"], ["adalovelace"]),
+        ([SIX, f"copy/{SIX}"], ["class"]),
+        ([SIX, f"copy/{SIX}", f"old/{SIX}", COURSE.state_file], ["class"]),
+        ([f"ada/{SIX}", f"bo/{SIX}", f"ada_{SEVEN}"], ["ada", "bo"]),
+        ([f"ada/{SIX}", f"frida_{SIX}"], ["ada", "frida"]),
+        (["zoe.rar", "yan.tar.gz"], ["yan", "zoe"]),
+    ],
+)
+def test_what_stands_before_the_name_of_a_file_is_a_student_where_there_are_several(tmp_path, names, students):
+    assert sorted(handed(tmp_path, dict.fromkeys(names, "x = 1"))) == students
+
+
+def test_nothing_beside_the_folders_of_students_goes_unmentioned(tmp_path):
+    names = [f"ada/{SIX}", f"bo/{SIX}", "bo/more.7z", f"frida_{SIX}", SEVEN, "zoe.rar", "homework.pdf", "ada.tar.gz"]
+    found = handed(tmp_path, dict.fromkeys(names, "x = 1"))
+    assert sorted(found) == ["ada", "bo", "class", "frida", "zoe"]
+    assert found["class"][1].endswith("no name says whose it is: ex_49_7.py, homework.pdf.")
+    for student, archive in (("zoe", "zoe.rar"), ("bo", "more.7z"), ("ada", "ada.tar.gz")):
+        assert f"{archive}: cannot be opened, unpack it." in found[student][1]
+
+
+def test_an_untouched_file_gives_way_to_one_that_is_written(tmp_path):
+    empty = skeletons.skeleton(COURSE, "49.7", "zh")
+    found = handed(tmp_path, {f"a/{SEVEN}": empty, f"a/copy/{SEVEN}": "y", f"b/{SEVEN}": "x", f"b/copy/{SEVEN}": "y"})
+    assert found["a"][0] == ["y"]
+    assert "copy/ex_49_7.py was judged, and not also ex_49_7.py." in found["a"][1]
+    assert found["b"][0] == ["x"]
+    assert "ex_49_7.py was judged, and not also copy/ex_49_7.py." in found["b"][1]
+
+
+def test_what_may_be_a_missing_file_is_listed(tmp_path):
+    _, remark = handed(tmp_path, {"chen/ex_49_6 (1).py": "x", "chen/sub/final_version.py": "y"})["chen"]
+    assert remark.endswith("Not there: ex_49_7.py. Here are also: sub/final_version.py.")
+
+
+@pytest.mark.parametrize(
+    ("name", "coding", "student"),
+    [("张三_124", "gbk", "张三_124"), ("张喆", "utf-8", "张喆"), ("José_1", "cp437", "José_1"), ("ada", "gbk", "ada")],
+)
+def test_names_in_a_zip_are_read_as_they_were_written(tmp_path, name, coding, student):
+    stands = packed({"N" * len(name.encode(coding)) + "/": 1, "bela/": 1})
+    data = stands.replace(b"N" * len(name.encode(coding)) + b"/", name.encode(coding) + b"/")
+    (tmp_path / "class.zip").write_bytes(data)
+    (tmp_path / "room").mkdir()
+    found = submissions(COURSE, [tmp_path / "class.zip"], tmp_path / "room", ["49.0"])
+    assert {one.student for one in found} == {student, "bela"}
+
+
+def test_what_is_of_nobody_and_what_nobody_knows_are_shown(room, tmp_path):
+    (tmp_path / "one").mkdir()
+    for name in ("ada", "bo"):
+        (tmp_path / "one" / f"{name}_ex_49_0.py").write_text("x = 1\n", encoding="utf-8")
+    (tmp_path / "one" / "what.docx").touch()
+    found = grade(COURSE, [tmp_path / "one"], only=["49.0.1"])
+    assert [one.student for one in found] == ["ada", "bo", "one"]
+    assert all("what.docx" in shown(found, 0, "en") for shown in (as_table, as_html, as_csv))
+    assert re.search(r"^ada +0.00 / 1 +– +– +0$", as_table(found, 0, "en"), re.MULTILINE)
+    rows = list(csv.DictReader(io.StringIO(as_csv(found, 0, "zh").removeprefix("\ufeff"))))
+    assert [(row["state"], row["hints"], row["solution"]) for row in rows if row["function"] == "skew"] == [
+        ("有误", "", "")
+    ] * 2
+    assert as_html(found[::-1], 0, "en").count("<td>0.00 –</td>") == 2
 
 
 def test_a_zip_writes_nothing_elsewhere_and_unpacks_nothing_huge(tmp_path):
