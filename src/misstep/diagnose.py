@@ -224,7 +224,7 @@ class _Diagnoser:
             lines = [ANY, *(say("  - {x}", "  - {x}", x=self._slip(name)) for name in names[:MAX_NAMED])]
         edit = next((x.edit for x in self.own.whole if x.edit and _is_plain(x.edit)), None)
         cure = (
-            say("Line {line}: {edit}.", "第 {line} 行：{edit}。", line=edit.line, edit=edit_text(edit))
+            say("To mend line {line}: {edit}.", "第 {line} 行这样改：{edit}。", line=edit.line, edit=edit_text(edit))
             if edit
             else None
         )

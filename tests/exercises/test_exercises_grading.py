@@ -164,7 +164,7 @@ def test_answers_are_found_under_the_names_that_they_are_handed_in_with(tmp_path
     found = graded(room)
     assert found["ada"] == (1, "")
     points, remark = found["bela_1234_assignsubmission_file"]
-    assert (points, remark) == (1, "ex_49_0 (1).py was taken for ex_49_0.py.")
+    assert (points, remark) == (1, "week/one/ex_49_0 (1).py was taken for ex_49_0.py.")
     assert found["chen"][0] == 1
     assert found["dora"][0] == 0
     assert "ex_49_0_new.py, ex_49_0_old.py" in found["dora"][1]
