@@ -165,11 +165,10 @@ class _Tree:
         if owners or nameless:
             is_class = len(owners | {_name(x) for x in leading}) > 1 or (bool(by_canvas) and not nameless)
         elif leading and len(inside) == 1:
-            is_class = not several
-            if not self.answers(self.folder(inside[0])):
-                further, strays = self.students(inside[0], several=several)
-                handed = {one.student: one for one in further} if len(further) > 1 else {}
-                is_class = is_class or len(further) > 1
+            further, within = self.students(inside[0], several=several)
+            if len(further) > 1:
+                handed, strays = {str(k): one for k, one in enumerate(further)}, within
+            is_class = not several or bool(handed)
         else:
             is_class = bool(leading) or len(owned) > 1
         if not is_class:
@@ -274,10 +273,10 @@ def _submission(one: _Handed, tree: _Tree, sections: Sequence[str]) -> Submissio
     closed = [name for name in others if _is_closed(PurePath(name))]
     remarks += [CLOSED.fill(file=name) for name in closed]
     missing = [tree.course.file_name(section) for section in sections if section not in found]
-    if not found:
+    if not found and not (closed and closed == others):
         text = "No exercises were found here. Here are: {files}.", "此处没有找到练习。这里有：{files}。"
         remarks.append(say(*text, files=_listed(others) if others else Text("nothing", "空")))
-    elif missing:
+    elif found and missing:
         remarks.append(say("Not there: {files}.", "缺少：{files}。", files=_listed(missing)))
         if unknown := [name for name in others if name.lower().endswith(CODE)]:
             remarks.append(say("Here are also: {files}.", "这里还有：{files}。", files=_listed(unknown)))

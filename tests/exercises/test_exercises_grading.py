@@ -281,6 +281,8 @@ def test_files_of_many_students_in_one_folder_belong_to_those_whose_names_they_h
         ([f"ada/{SIX}", f"bo/{SIX}", f"ada_{SEVEN}"], ["ada", "bo"]),
         ([f"ada/{SIX}", f"frida_{SIX}"], ["ada", "frida"]),
         (["zoe.rar", "yan.tar.gz"], ["yan", "zoe"]),
+        ([f"week/ada_{SIX}", f"week/bo_{SIX}"], ["ada", "bo"]),
+        ([f"week/ada_{SIX}", f"week/bo_{SIX}", "zoe.rar"], ["ada", "bo", "zoe"]),
     ],
 )
 def test_what_stands_before_the_name_of_a_file_is_a_student_where_there_are_several(tmp_path, names, students):
