@@ -4,6 +4,7 @@ import dataclasses
 import re
 import subprocess
 import sys
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -232,11 +233,11 @@ NAMES = names()
 # ---------------------------------------------------------------- the questions
 
 
-def test_every_section_has_ten_questions_and_every_number_has_an_expression():
+def test_every_section_has_ten_questions_and_every_answer_has_an_expression():
     assert len(SECTIONS) == 12
     assert {section: len(pencil_questions(section)) for section in SECTIONS} == dict.fromkeys(SECTIONS, 10)
     questions = list(ALL.values())
-    assert not [question.text.en for question in questions if question.numbers and not question.by]
+    assert not [question.text.en for question in questions if not question.by]
     assert sum(len(question.by) > 1 for question in questions) >= 50  # found in two ways
     assert len({question.text.en for question in questions}) == 120
 
@@ -252,6 +253,8 @@ def evaluated(question: PencilQuestion) -> list[str]:
         numbers, found = np.array(question.numbers), np.ravel(np.asarray(found, dtype=float))
         near = np.maximum((question.rtol if question.rtol != NEAR else 1e-6) * np.abs(numbers), 1e-6)
         right = found.shape == numbers.shape and (np.abs(found - numbers) <= near).all()
+        if question.fractions:
+            right = right and np.allclose(found, [float(Fraction(number)) for number in question.fractions], rtol=1e-9)
         wrong += [] if right else [f"{expression}: {found}"]
     return wrong
 
@@ -260,7 +263,9 @@ def test_every_answer_is_what_the_package_computes():
     assert {name: wrong for name, question in ALL.items() if (wrong := evaluated(question))} == {}
 
 
-@pytest.mark.parametrize("change", [{"numbers": (0.0, 0.12, 0.13)}, {"numbers": (0.12,)}])
+@pytest.mark.parametrize(
+    "change", [{"numbers": (0.0, 0.12, 0.13)}, {"numbers": (0.12,)}, {"fractions": ("0", "1/8", "3/25")}]
+)
 def test_a_wrong_answer_is_noticed(change):
     assert evaluated(dataclasses.replace(ALL["49.5-1"], **change))
 
@@ -322,7 +327,36 @@ def test_moodle_reads_every_question(language):
                 assert 0 < tolerance <= 0.06 * abs(number)
             else:
                 for _, answer in answers:
-                    assert tuple(map(float, answer.strip("()").split(","))) == pytest.approx(question.numbers)
+                    numbers = re.split(r", ?|， ?", answer.strip("()（）").replace("−", "-"))
+                    assert [float(Fraction(number)) for number in numbers] == pytest.approx(question.numbers, abs=5e-4)
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_moodle_takes_several_numbers_as_any_keyboard_writes_them(language):
+    found = {title: {answer for _, answer in answers} for title, _, answers in read_gift(gift("49.8", language))}
+    for answer in (
+        "0.667, -0.167, 0.333",
+        "0.667,-0.167,0.333",
+        "0.667，−0.167，0.333",
+        "（2/3， -1/6， 1/3）",
+        "(2/3,−1/6,1/3)",
+    ):
+        assert answer in found["49.8.1"]
+    assert "0.667, 0.167, 0.333" not in found["49.8.1"]
+
+
+@pytest.mark.parametrize(
+    ("language", "order"), [("en", "(Of six numbers the angular ones"), ("zh", "（六个数中角分量在前")]
+)
+def test_moodle_says_in_which_order_six_numbers_stand(language, order):
+    told = {title for section in SECTIONS for title, text, _ in read_gift(gift(section, language)) if order in text}
+    six = {name.replace("-", ".") for name, question in ALL.items() if len(question.numbers) == 6}
+    assert six | {"49.4.2", "49.5.7", "49.5.8"} <= told
+    assert not told & {"49.5.1", "49.7.7", "49.11.4"}
+
+
+def test_chinese_has_no_blank_between_sentences_for_moodle():
+    assert not [section for section in SECTIONS if re.search(r"[。）] （", gift(section, "zh"))]
 
 
 def test_what_gift_has_marks_for_is_escaped():

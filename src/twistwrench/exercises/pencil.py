@@ -21,6 +21,8 @@ SECTIONS = tuple(name for name in COURSE.sections if name.startswith("49."))
 NEAR = 0.01
 """A number that is off by no more than this part of the answer is right, unless the question says otherwise."""
 LETTERS = "abcd"
+SIX = re.compile(r"\((?:[^();,]+, ){2}[^();,]+; ")
+"""Six numbers in a question, as (0, 0, 2; 1, 0, 0)."""
 WORDS = {
     "title": Text("{section} with a pencil", "{section} 纸笔题"),
     "answers": Text("{section} with a pencil: answers", "{section} 纸笔题：答案"),
@@ -29,6 +31,10 @@ WORDS = {
         "**{title}**。只用纸笔，不用计算机。twist 写成 (ω, v)，wrench 写成 (τ, f)；所有数值用 SI 单位。",
     ),
     "commas": Text("(Write the numbers with commas between them.)", "（数与数之间用逗号隔开。）"),
+    "order": Text(
+        "(Of six numbers the angular ones come first: a twist is (ω, v), a wrench (τ, f), a momentum (k, l).)",
+        "（六个数中角分量在前：twist 是 (ω, v)，wrench 是 (τ, f)，动量是 (k, l)。）",
+    ),
     "unit": Text("(in {unit})", "（单位 {unit}）"),
 }
 
@@ -50,6 +56,8 @@ class PencilQuestion:
     choices : tuple of Text
     right : int
         Which choice is right.
+    fractions : tuple of str
+        The numbers as fractions, where these are asked for as well.
     by : tuple of str
         Expressions that compute the numbers, or are true if the choice is right. Tests evaluate them.
     """
@@ -61,6 +69,7 @@ class PencilQuestion:
     rtol: float = NEAR
     choices: tuple[Text, ...] = ()
     right: int = 0
+    fractions: tuple[str, ...] = ()
     by: tuple[str, ...] = ()
 
     def unit_in(self, language: Language) -> str:
@@ -104,8 +113,8 @@ def _question(entry: Mapping[str, Any]) -> PencilQuestion:
     number = entry.get("number", [])
     numbers = tuple(number) if isinstance(number, list) else (number,)
     choices = tuple(Text(*pair) for pair in entry.get("choices", []))
-    by = tuple(entry.get("by", []))
-    return PencilQuestion(Text(*entry["text"]), Text(*entry["why"]), numbers, choices=choices, by=by, **given)
+    lists = {key: tuple(entry.get(key, [])) for key in ("fractions", "by")}
+    return PencilQuestion(Text(*entry["text"]), Text(*entry["why"]), numbers, choices=choices, **lists, **given)
 
 
 def sheet(section: str, language: Language = "en", *, answers: bool = False) -> str:
@@ -149,7 +158,9 @@ def plain(text: str) -> str:
 def gift(section: str, language: Language = "en") -> str:
     r"""Return the questions of a section in Moodle's GIFT format, which other learning platforms read as well.
 
-    A single number is asked with its tolerance, several as a short answer with commas, a choice by its letter.
+    A single number is asked with its tolerance, several as a short answer with commas, a choice by its letter. Commas
+    and brackets of a Chinese keyboard are right as well, with or without blanks. A question with six numbers says in
+    which order they stand.
 
     Examples
     --------
@@ -165,7 +176,9 @@ def gift(section: str, language: Language = "en") -> str:
 def _asked(question: PencilQuestion, language: Language) -> str:
     unit = WORDS["unit"].fill(unit=question.unit_in(language)).of(language) if question.unit else ""
     commas = WORDS["commas"].of(language) if len(question.numbers) > 1 else ""
-    return " ".join(filter(None, [question.text.of(language), unit, commas]))
+    six = len(question.numbers) == 6 or SIX.search(question.text.en)
+    order = WORDS["order"].of(language) if six else ""
+    return ("" if language == "zh" else " ").join(filter(None, [question.text.of(language), order, unit, commas]))
 
 
 def _expected(question: PencilQuestion, language: Language) -> str:
@@ -179,10 +192,11 @@ def _expected(question: PencilQuestion, language: Language) -> str:
     if len(question.numbers) == 1:
         (number,) = question.numbers
         return f"#{number:g}:{abs(number) * max(question.rtol, NEAR):.3g}{why}"
-    numbers = [f"{number:g}" for number in question.numbers]
-    spellings = [mark.join(numbers) for mark in (", ", ",")]
-    spellings += [f"({spelling})" for spelling in spellings]
-    return " ".join(f"={_escaped(spelling)}" for spelling in spellings) + why
+    written = [tuple(f"{number:g}" for number in question.numbers), question.fractions]
+    written += [tuple(number.replace("-", "−") for number in numbers) for numbers in written]
+    bare = [mark.join(numbers) for numbers in dict.fromkeys(written) if numbers for mark in (", ", ",", "，", "， ")]
+    spellings = [f"{left}{spelling}{right}" for left, right in ("  ", "()", "（）") for spelling in bare]
+    return " ".join(f"={_escaped(spelling.strip())}" for spelling in spellings) + why
 
 
 def _escaped(text: str) -> str:
