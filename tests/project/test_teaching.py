@@ -2,6 +2,7 @@
 
 import json
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -159,6 +160,21 @@ def test_slides_need_no_network(tmp_path):
     assert beside.rstrip().endswith('<script src="../mathjax.js"></script>')
 
 
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is not installed: nothing is printed")
+def test_printing_gives_a_page_for_each_slide(tmp_path):
+    tool().main(["49_07", "--out", str(tmp_path)])
+    (written,) = tmp_path.rglob("*.html")
+    command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=20000"]
+    command += [
+        f"--user-data-dir={tmp_path / 'profile'}",
+        f"--print-to-pdf={tmp_path / 'slides.pdf'}",
+        written.as_uri(),
+    ]
+    subprocess.run(command, check=True, capture_output=True, timeout=120)
+    pages = re.findall(rb"/Type\s*/Page\b", (tmp_path / "slides.pdf").read_bytes())
+    assert len(pages) == written.read_text(encoding="utf-8").count('<section><div class="fit">')
+
+
 def test_formulas_of_slides_stay_tex_and_links_become_words():
     html = tool().text(r"Take $a_i < b$ from [Felt mass](../hands/felt.md):" "\n\n$$\nF = m a\n$$\n")
     assert r"\(a_i &lt; b\)" in html
@@ -192,6 +208,17 @@ def test_the_results_for_gradescope_are_those_of_the_csv(tmp_path):
     marks = {test["name"]: (test["score"], test["max_score"]) for test in tests}
     assert marks == {"49.0.1 skew": (1, 1), "49.0.2 act": (0, 1), "49.0.3 adjoint": (0, 1)}
     assert all(test["output"] for test in tests)
+
+
+def test_gradescope_says_which_files_were_found(tmp_path):
+    for folder in ("results", "submission"):
+        (tmp_path / folder).mkdir()
+    (tmp_path / "results.py").write_text(results("en"), encoding="utf-8")
+    (tmp_path / "submission" / "final.py").write_text("def skew(w):\n    return w\n", encoding="utf-8")
+    grade = [sys.executable, "-m", "twistwrench", "exercises", "grade", "submission", "--csv", "marks.csv"]
+    for command in ([*grade, "--only", "49.0.1"], [sys.executable, "results.py"]):
+        subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    assert "final.py" in json.loads((tmp_path / "results" / "results.json").read_text(encoding="utf-8"))["output"]
 
 
 def test_both_languages_give_gradescope_the_same():

@@ -113,8 +113,8 @@ def _question(entry: Mapping[str, Any]) -> PencilQuestion:
     number = entry.get("number", [])
     numbers = tuple(number) if isinstance(number, list) else (number,)
     choices = tuple(Text(*pair) for pair in entry.get("choices", []))
-    lists = {key: tuple(entry.get(key, [])) for key in ("fractions", "by")}
-    return PencilQuestion(Text(*entry["text"]), Text(*entry["why"]), numbers, choices=choices, **lists, **given)
+    given |= {key: tuple(entry.get(key, [])) for key in ("fractions", "by")}
+    return PencilQuestion(Text(*entry["text"]), Text(*entry["why"]), numbers, choices=choices, **given)
 
 
 def sheet(section: str, language: Language = "en", *, answers: bool = False) -> str:
