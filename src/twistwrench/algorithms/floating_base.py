@@ -96,7 +96,8 @@ def contact_jacobian(model: Model, q: ArrayLike, contacts: Iterable[str | HeldRo
     Notes
     -----
     Section 49.9. The linear rows are the last three of our 6 × nv Jacobians and the first three of
-    Pinocchio's; the chapter's listing in 49.11 takes the wrong ones, and a J_c of rank 9.
+    Pinocchio's; the chapter's listing in 49.11 takes the wrong ones, and a J_c of rank 9 for a
+    robot that stands, 10 in general.
 
     Examples
     --------
