@@ -109,7 +109,7 @@ def pencil_questions(section: str) -> tuple[PencilQuestion, ...]:
 
 
 def _question(entry: Mapping[str, Any]) -> PencilQuestion:
-    given = {key: entry[key] for key in ("unit", "rtol", "right") if key in entry}
+    given: dict[str, Any] = {key: entry[key] for key in ("unit", "rtol", "right") if key in entry}
     number = entry.get("number", [])
     numbers = tuple(number) if isinstance(number, list) else (number,)
     choices = tuple(Text(*pair) for pair in entry.get("choices", []))
