@@ -32,8 +32,8 @@ CODE = (".py", ".ipynb", ".txt")  # files that may be answers under another name
 SEVERAL = Text("None of several for {name} was judged: {files}.", "{name} 有好几份，都没有评判：{files}。")
 CLOSED = Text("{file}: cannot be opened, unpack it.", "{file}：无法打开，请先解压。")
 OF_NOBODY = Text(
-    "Beside what students have handed in, and not judged, since no name says whose it is: {files}.",
-    "以下文件不在学生的文件夹里，从文件名也看不出是谁的，没有评判：{files}。",
+    "Not judged, since no name says whose it is, or since it is no file that can be read: {files}.",
+    "以下内容没有评判，因为从名字看不出是谁交的，或者不是可读的文件：{files}。",
 )
 
 CANVAS = re.compile(r"([^_]+)_(?:LATE_)?(\d+)_\d+_", re.IGNORECASE)
