@@ -50,6 +50,9 @@ def interrupted(seconds: float) -> Iterator[None]:
             is_late.set()
             interrupt_main()
 
+    ignored = signal.getsignal(signal.SIGINT) == signal.SIG_IGN  # so a shell starts what runs in the background
+    if ignored:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Thread(target=watch, daemon=True).start()
     try:
         yield
@@ -59,6 +62,8 @@ def interrupted(seconds: float) -> Iterator[None]:
         raise
     finally:
         has_ended.set()
+        if ignored:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 @contextmanager
