@@ -151,7 +151,7 @@ def test_slides_show_every_question_and_picture_and_no_assert(language):
 
 @pytest.mark.slow
 def test_slides_need_no_network(tmp_path):
-    pytest.importorskip("sphinx_mathjax_offline", reason="the docs extra is not installed: no MathJax")
+    pytest.importorskip("sphinx-mathjax-offline", reason="the docs extra is not installed: no MathJax")
     if tool().main(["49_07", "--out", str(tmp_path)]):
         raise AssertionError
     (written,) = tmp_path.rglob("*.html")
@@ -165,7 +165,7 @@ def test_slides_need_no_network(tmp_path):
 @pytest.mark.slow
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is not installed: nothing is printed")
 def test_printing_gives_a_page_for_each_slide(tmp_path):
-    pytest.importorskip("sphinx_mathjax_offline", reason="the docs extra is not installed: no MathJax")
+    pytest.importorskip("sphinx-mathjax-offline", reason="the docs extra is not installed: no MathJax")
     tool().main(["49_07", "--out", str(tmp_path)])
     (written,) = tmp_path.rglob("*.html")
     command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=20000"]
