@@ -188,8 +188,8 @@ def hint(
         Of the function; or the number of an exercise, as "49.3.1", for the first of its functions that is wrong, or
         else is not right yet.
     folder : str or path
-        One that `start` has filled. In any other, only of what was `check`ed is it remembered which hints were given,
-        until Python ends; else each call returns the first.
+        One that `start` has filled. In any other, which hints were given is remembered until Python ends, and only of
+        what `check` has looked at; else each call returns the first.
     again : bool
         Repeat the last hint.
     every : bool
