@@ -8,7 +8,7 @@ what Pinocchio calls it; each section leads to its notebook.
 from __future__ import annotations
 
 import re
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,7 @@ from . import beside, notebooks, pages, typeset
 TABLE = re.compile(r"(?:^\|.*\n)+", re.MULTILINE)
 SECTION = re.compile(r"^## (49\.\d+) .*\n", re.MULTILINE)
 LINE = re.compile(r'<span class="linenos"> *(\d+)</span>')
+BACK = re.compile(r'(class="viewcode-back" href="[^"#]*#)([\w.]+)')
 BY_LINE = {"en": "`{}`, line {}", "zh": "`{}` 第 {} 行"}
 ITS_NAME = {"en": "Pinocchio: {}", "zh": "Pinocchio：{}"}
 NOTEBOOK = {"en": "The notebook of this section: [{0}]({1})", "zh": "本节的笔记本：[{0}]({1})"}
@@ -82,6 +83,19 @@ def _steps() -> dict[str, str]:
     return {name: page for page, part in parts for step in part["step"] for name in step["at"].split(", ")}
 
 
+def _back(env: Any, page: str, link: re.Match[str]) -> str:
+    """Lead from a listing to the entry of a name, which may stand at the top of the package, or in its folder.
+
+    Sphinx knows one prefix for all names of a file.
+    """
+    places = env.get_domain("py").objects
+    module = page.removeprefix("_modules/").replace("/", ".")
+    _, _, used, prefix = env._viewcode_modules[module]
+    own = link[2].removeprefix(f"{prefix}.")
+    found = [name for name in places if name.endswith(f".{own}") and places[name].docname == used.get(own)]
+    return f"{link[1]}{min(found, key=len, default=link[2])}"
+
+
 def connect(app: Any) -> None:
     """Give every line of the shown sources a name, and show those files too that document nothing by themselves."""
 
@@ -94,7 +108,8 @@ def connect(app: Any) -> None:
 
     def name_lines(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
         if page.startswith("_modules/") and "body" in context:
-            context["body"] = LINE.sub(lambda m: m[0].replace("<span", f'<span id="L{m[1]}"'), context["body"])
+            body = LINE.sub(lambda m: m[0].replace("<span", f'<span id="L{m[1]}"'), context["body"])
+            context["body"] = BACK.sub(partial(_back, app.env, page), body)
 
     app.connect("env-check-consistency", show)
     app.connect("html-page-context", name_lines)

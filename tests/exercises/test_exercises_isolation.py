@@ -73,7 +73,7 @@ def test_an_endless_loop_is_told_with_its_line(tmp_path, name, body, line):
     state, message = said(tmp_path, name)
     assert state == "wrong"
     assert f"{name}: not yet right. It did not finish in 1.5 s: a loop that never ends? in ex_49_0.py, line " in message
-    assert any(message.endswith(": " + one) for one in line.split(" or "))
+    assert any(f": {one} Read §" in message for one in line.split(" or "))
     assert "1.5 秒内没有结束" in said(tmp_path, name, "zh")[1]
 
 
@@ -87,7 +87,7 @@ def test_the_others_are_judged_all_the_same(tmp_path):
     states = {number: state for row in found.rows for number, state in row.states.items()}
     assert {number for number, state in states.items() if state == "wrong"} == {"49.0.3", "49.1.1", "49.1.2"}
     assert states["49.0.2"] == "done"
-    assert said(tmp_path, "adjoint")[1].endswith("It ended the whole Python process.")
+    assert "It ended the whole Python process." in said(tmp_path, "adjoint")[1]
     file = said(tmp_path, "sizes")[1]
     assert "It did not finish in 1.5 s" in file
     assert "while True: x = 1" in file
@@ -124,7 +124,7 @@ def test_ten_gigabytes_are_an_error_in_a_line_of_the_student(tmp_path):
     state, message = said(tmp_path, "act")
     assert state == "wrong"
     assert "It stopped with MemoryError" in message or "ArrayMemoryError" in message
-    assert message.endswith("big = np.ones(10**10 // 8)")
+    assert ": big = np.ones(10**10 // 8) Read §" in message
 
 
 @pytest.mark.slow
