@@ -93,7 +93,9 @@ def _back(env: Any, page: str, link: re.Match[str]) -> str:
     _, _, used, prefix = env._viewcode_modules[module]
     own = link[2].removeprefix(f"{prefix}.")
     found = [name for name in places if name.endswith(f".{own}") and places[name].docname == used.get(own)]
-    return f"{link[1]}{min(found, key=len, default=link[2])}"
+    if link[2] in places or not found:
+        return link[0]
+    return link[1] + str(places[min(found, key=len)].node_id)
 
 
 def connect(app: Any) -> None:
