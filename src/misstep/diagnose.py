@@ -293,7 +293,7 @@ class _Diagnoser:
             return self.field.slips[found.slip].kind
         return KINDS.get(found.edit.rule) or (SURPLUS if found.origin == "own" else MISSING)
 
-    @property
+    @cached_property
     def _structure(self) -> Text | None:
         """What shows without numbers; nothing where it raised an error."""
         evidence = self.evidence

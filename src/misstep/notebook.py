@@ -14,13 +14,10 @@ from .exercise import Exercise, Part
 from .isolation import TIME_LIMIT_S, checked_limit, drawn
 from .judge import ASK
 from .text import Language, Text, say
-from .verdict import LEVELS, State
+from .verdict import LEVELS
 from .workbook import Workbook, verdict_on_words
 
 __all__ = ["check", "checked"]
-
-_STATES: dict[str, State] = {}
-"""What has been checked in this process, by the name of the function. For the progress only."""
 
 
 def check(
@@ -60,7 +57,6 @@ def check(
         verdict = book.judge_function(exercise, part, function)
         ask = ASK.fill(call=f'{course.call}.hint("{part.name}")')
         verdicts[part.name] = replace(verdict, more=(*verdict.more[:1], *[ask] * bool(verdict.more)))
-    session.verdicts.update(verdicts)
     if words is not None:
         verdicts[WORDS] = verdict_on_words(exercise, words)
     level = min(level, book.max_level)
@@ -76,12 +72,11 @@ def checked(book: Workbook, exercise: Exercise) -> Checked:
 
 
 def _with_progress(found: Checked) -> Checked:
-    """Add a line about the section."""
-    _STATES.update({name: verdict.state for name, verdict in found.functions.items()})
-    are_right = all(_STATES.get(part.name) == "done" for part in found.exercise.parts)
-    section = found.exercise.section
-    every = found.exercise.course.of_section(section)
-    missing = {x.id: [part.name for part in x.parts if _STATES.get(part.name) != "done"] for x in every}
+    """Add a line about the section, and remember the verdicts."""
+    course, section = found.exercise.course, found.exercise.section
+    course.session.verdicts.update(found.functions)
+    right = {name for name, verdict in course.session.verdicts.items() if verdict.state == "done"}
+    missing = {x.id: [part.name for part in x.parts if part.name not in right] for x in course.of_section(section)}
     done = [not names for names in missing.values()]
     text = "Section {section}: {bar}  {done} of {all} exercises", "{section} 节：{bar}  {done}/{all} 题"
     line = say(*text, section=section, bar="".join("○●"[x] for x in done), done=sum(done), all=len(done))
@@ -90,7 +85,7 @@ def _with_progress(found: Checked) -> Checked:
         names = Text(", ".join(rest), "、".join(rest))
         text = "{line}; of {id} there is still to check: {names}", "{line}；{id} 还有待检查的函数：{names}"
         line = say(*text, line=line, id=found.exercise.id, names=names)
-    return replace(found, progress=line.of(found.language), are_functions_right=are_right)
+    return replace(found, progress=line.of(found.language), are_functions_right=not rest)
 
 
 def _part(exercise: Exercise, known: dict[str, Part], function: Callable[..., Any], *, alone: bool) -> Part:

@@ -14,7 +14,7 @@ from .algorithms.aba import aba
 from .algorithms.kinematics import forward_kinematics
 from .arrays import Array, resolution
 from .errors import SingularError
-from .model import Model, check_model, columns, composite_inertias, floats_of, tree_terms
+from .model import Model, check_model, columns, composite_inertias, floats_of, joint_name_at, tree_terms
 
 __all__ = ["Accuracy", "Loss", "accuracy"]
 
@@ -243,7 +243,7 @@ def accuracy(model: Model, q: ArrayLike, v: ArrayLike | None = None, tau: ArrayL
     parts = {
         "weak motion": (1 / float(certain[worst]) if certain[worst] > 0 else np.inf, known.weak),
         "dependent directions": (float(within[worst]), _dependent(model, scaled[worst])),
-        "terms of M": (float(terms[worst].max()) / FREE_TERMS, (_joint_at(model, int(terms[worst].argmax())),)),
+        "terms of M": (float(terms[worst].max()) / FREE_TERMS, (joint_name_at(model, int(terms[worst].argmax())),)),
         "terms that cancel": (float(cancelled[worst]) * max(float(certain[worst]), tiny) / DIVIDED, state.cancelling()),
     }
     lost = float(np.log10(forward[worst] / ((SUMMED + DIVIDED) * eps)))
@@ -416,11 +416,6 @@ def _root(*terms: Array) -> Array:
     return np.asarray(total)
 
 
-def _joint_at(model: Model, k: int) -> str:
-    """Return the name of the joint that entry k of v belongs to."""
-    return next(name for name, s in zip(model.joint_names, model.v_slice) if s.start <= k < s.stop)
-
-
 def _dependent(model: Model, scaled: Array) -> tuple[str, ...]:
     """Return the joint whose own directions are least independent."""
     blocks = [i for i, s in enumerate(model.v_slice) if model.parent[i] > 0 and s.stop - s.start > 1]
@@ -450,7 +445,7 @@ class _State(NamedTuple):
         if self.v is None:
             return ()
         own = np.sqrt(np.maximum(np.diagonal(_mass_matrix(self.model, self.q)), np.finfo(float).tiny))
-        return (_joint_at(self.model, int(np.argmax(_bias_terms(self.model, self.q, self.v) / own))),)
+        return (joint_name_at(self.model, int(np.argmax(_bias_terms(self.model, self.q, self.v) / own))),)
 
 
 def _losses(
@@ -458,7 +453,7 @@ def _losses(
 ) -> tuple[Loss, ...]:
     """Return the causes that cost digits, the largest first, each with the cure for all of them."""
     model, own = state.model, np.diagonal(M)
-    idle = tuple(dict.fromkeys(_joint_at(model, int(k)) for k in np.flatnonzero(own <= 0)))
+    idle = tuple(dict.fromkeys(joint_name_at(model, int(k)) for k in np.flatnonzero(own <= 0)))
     if idle:
         cure = "give the link a mass or the rotor an armature, or hold the joint: tw.lock_joints"
         return (Loss("no inertia", idle, np.inf, cure),)

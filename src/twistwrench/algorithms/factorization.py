@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array, check_overflow, comparable, resolution
 from ..errors import SingularError
-from ..model import Model, Tree, check_state, tree_terms
+from ..model import Model, Tree, check_state, joint_name_at, tree_terms
 from ..spatial._elementary import at_first_index, sqrt
 from .crba import composite_rigid_body
 from .singular import ROUNDINGS
@@ -88,9 +88,8 @@ def factorize_mass_matrix(model: Model, tree: Tree) -> tuple[Array, Array, list[
     """Return L and D of the mass matrix and the inboard degrees of freedom; raise SingularError where D is lost."""
 
     def singular(k: int, where: str = "") -> SingularError:
-        name = next(name for name, s in zip(model.joint_names, model.v_slice) if s.start <= k < s.stop)
         said = "with its outboard joints free it moves no inertia beyond rounding"
-        return SingularError(f"M is singular at joint {name!r}: {said}{where}")
+        return SingularError(f"M is singular at joint {joint_name_at(model, k)!r}: {said}{where}")
 
     M, inboard = composite_rigid_body(tree).M, inboard_dofs(tree)
     try:

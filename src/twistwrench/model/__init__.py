@@ -39,7 +39,7 @@ from .report import Entry, LoadReport
 from .rerooting import Rerooting, reroot
 from .samples import KINDS, chain, random_tree
 from .serial import ScrewAxes, from_dh, from_screw_axes, screw_axes
-from .state import check_arrays, check_entries, in_double, with_number
+from .state import check_arrays, check_entries, in_double, joint_name_at, with_number
 from .tree import Tree, columns, composite_inertias, joint_placements, stack_columns, tree_terms, wrenches
 
 __all__ = [
@@ -84,6 +84,7 @@ __all__ = [
     "from_screw_axes",
     "idle_joints",
     "in_double",
+    "joint_name_at",
     "joint_placements",
     "lock_joints",
     "matching_joints",

@@ -19,8 +19,14 @@ from ..spatial._elementary import at_first_index
 
 if TYPE_CHECKING:
     from .configuration import ConfigurationSpace
+    from .model import Model
 
-__all__ = ["check_arrays", "check_entries", "in_double", "with_number"]
+__all__ = ["check_arrays", "check_entries", "in_double", "joint_name_at", "with_number"]
+
+
+def joint_name_at(model: Model, entry: int) -> str:
+    """Return the name of the joint that an entry of v belongs to."""
+    return next(name for name, s in zip(model.joint_names, model.v_slice) if s.start <= entry < s.stop)
 
 
 def check_entries(

@@ -18,7 +18,7 @@ from ..arrays import Array
 from ..contact import constraint_jacobian
 from ..fast import crba
 from ..fast.steps import integrate
-from ..model import Model
+from ..model import joint_name_at
 from .system import System
 
 __all__ = ["divergence_cause"]
@@ -68,13 +68,8 @@ def divergence_cause(system: System, method: str, t0: float, states: Sequence[tu
     if found is None:
         return ""
     entry, reason = found
-    name = system.model.joint_names[body_of(system.model, entry)]
+    name = joint_name_at(system.model, entry)
     return f"it began with joint {name!r}{alternating(speeds[k:, entry])}: {reason}"
-
-
-def body_of(model: Model, entry: int) -> int:
-    """Return the joint that an entry of v belongs to."""
-    return next(i for i, s in enumerate(model.v_slice) if s.start <= entry < s.stop)
 
 
 def onset(speeds: Array, dt: float) -> tuple[int, int]:
@@ -125,14 +120,11 @@ def feedback_cause(
         if dt * rate > bounded and np.isfinite(limit):
             share = shapes[:, -1] ** 2
             j, *more = (int(i) for i in np.argsort(-share)[:3])
-            named = [system.model.joint_names[body_of(system.model, i)] for i in more if share[i] > MIN_SHARE]
+            named = [joint_name_at(system.model, i) for i in more if share[i] > MIN_SHARE]
             others = " and ".join(map(repr, named)) or "others"
             eigenvalue = f"λ = {squares[-1]:.3g} is the largest eigenvalue of M⁻¹ {what}, and {name} = {dt:.3g} s"
             longest = f"{bounded:.3g}/{'λ' if power == 1 else '√λ'} = {bounded / rate:.2g} s"
-            return (
-                j,
-                f"alone it would not, but with {others}: {eigenvalue} must be below {longest}",
-            )
+            return j, f"alone it would not, but with {others}: {eigenvalue} must be below {longest}"
     j = int(kd.argmin())
     if kd[j] < 0 and -kd[j] / D[j] * dt > PROBE_SIZE:
         return j, f"its τ grows with its own velocity, by {-kd[j]:.3g} (SI units): a sign in the policy?"

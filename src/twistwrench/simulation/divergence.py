@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from ..model import GroupJoint, Model
+from ..model import GroupJoint, Model, joint_name_at
 from ..spatial._elementary import at_first_index
 
 __all__ = ["DivergenceError", "check_divergence", "check_turn"]
@@ -35,9 +35,9 @@ def check_divergence(model: Model, what: str, x: Array, *, dt: float = 1.0) -> N
     if not np.abs(x).max(initial=0) <= bound:
         wrong = np.asarray(~(np.abs(x) <= bound))
         entry = tuple(int(k) for k in np.argwhere(wrong)[0])
-        joint = next(i for i, s in enumerate(model.v_slice) if s.start <= entry[-1] < s.stop)
+        joint = joint_name_at(model, entry[-1])
         raise DivergenceError(
-            f"the motion diverges: joint {model.joint_names[joint]!r} has {what}[{entry[-1]}] = {float(x[entry]):.3g}"
+            f"the motion diverges: joint {joint!r} has {what}[{entry[-1]}] = {float(x[entry]):.3g}"
             f"{at_first_index(np.asarray(wrong.any(axis=-1)))}; a smaller dt or weaker forces?"
         )
 

@@ -121,9 +121,13 @@ class Simulation:
     @cached_property
     def energy(self) -> Array:
         """Kinetic and potential energy, shape (n, ...), J."""
-        moved, (q, v, _) = self.system.model, self.full
-        total: Array = kinetic_energy(moved, q, v) + potential_energy(moved, q)
+        total: Array = self._kinetic_energy + potential_energy(self.system.model, self.full[0])
         return total
+
+    @cached_property
+    def _kinetic_energy(self) -> Array:
+        q, v, _ = self.full
+        return np.asarray(kinetic_energy(self.system.model, q, v))
 
     @cached_property
     def momentum(self) -> Array:
@@ -160,7 +164,7 @@ class Simulation:
         found += neglect_remarks(model, self.t, v) if stepping is None else ground_remarks(stepping, self.t)
         if stepping is not None and not stepping.is_driven() and system.push is None:
             most = ENERGY_RTOL * np.abs(np.diff(self.work, axis=0)).sum(axis=0)
-            most = most + energy_of_steps(model, kinetic_energy(model, q, v).max(axis=0), system.dt)
+            most = most + energy_of_steps(model, self._kinetic_energy.max(axis=0), system.dt)
             found += energy_remarks(model.name, self.t, self.energy - self.work, most)
         return tuple(sorted(found))
 

@@ -26,7 +26,7 @@ from ..contact.forward import largest
 from ..fast import aba, crba
 from ..fast.programs import cached_program
 from ..fast.quantities import Quantity
-from ..model import GroupJoint, Model, tree_terms
+from ..model import GroupJoint, Model, joint_name_at, tree_terms
 from ..model.tree import join, split
 from ..spatial import cross_force, cross_motion
 from ..spatial._quaternions import exp_quaternion
@@ -179,10 +179,9 @@ def solve(M: Array, p: Array) -> Array:
 def unsolved(model: Model, defect: Array) -> DivergenceError:
     """Return the error that names the joint in which a step was not solved."""
     entry = int(np.abs(defect).reshape(-1, model.nv).max(axis=0).argmax())
-    joint = next(i for i, s in enumerate(model.v_slice) if s.start <= entry < s.stop)
     return DivergenceError(
-        f"the step was not solved in {MAX_ITERATIONS} iterations, least of all for joint {model.joint_names[joint]!r}; "
-        "a smaller dt or weaker forces?"
+        f"the step was not solved in {MAX_ITERATIONS} iterations, least of all for joint "
+        f"{joint_name_at(model, entry)!r}; a smaller dt or weaker forces?"
     )
 
 
