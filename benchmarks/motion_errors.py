@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 
 import mpmath
 import numpy as np
-from tables import fill, table
+from tables import table, write_each
 
 import twistwrench as tw
 from twistwrench import newton_euler_3d as ne
@@ -218,8 +218,7 @@ def main() -> None:
     for name in () if args.tables else [name for name in MOTIONS if name not in found]:
         found[name] = measure(name)
         RESULTS.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    for language, page in PAGES.items():
-        page.write_text(fill(page.read_text(encoding="utf-8"), tables(language)), encoding="utf-8")
+    write_each(PAGES, tables)
 
 
 if __name__ == "__main__":

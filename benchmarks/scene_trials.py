@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from tables import fill, table
+from tables import table, write_each
 
 HERE = Path(__file__).parent
 RESULTS = HERE / "results" / "scene_trials.json"
@@ -172,8 +172,7 @@ def main() -> None:
     if not parser.parse_args().tables:
         found = dict(measured(results() if RESULTS.exists() else {}))
         RESULTS.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
-    for language, page in PAGES.items():
-        page.write_text(fill(page.read_text(encoding="utf-8"), tables(language)), encoding="utf-8")
+    write_each(PAGES, tables)
 
 
 if __name__ == "__main__":

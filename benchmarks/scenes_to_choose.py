@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from tables import fill, table
+from tables import table, write_each
 
 import twistwrench as tw
 from twistwrench import motions
@@ -458,8 +458,7 @@ def main() -> None:
     if not args.tables:
         found = {name: list(choose(name)) for name in CASES}
         RESULTS.write_text(json.dumps(found, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    for language, page in PAGES.items():
-        page.write_text(fill(page.read_text(encoding="utf-8"), tables(language)), encoding="utf-8")
+    write_each(PAGES, tables)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -212,6 +212,12 @@ def write(pages: Iterable[Path], made: Mapping[str, str]) -> None:
     """Write pages with their tables made anew."""
     for page in pages:
         page.write_text(fill(page.read_text(encoding="utf-8"), made), encoding="utf-8")
+
+
+def write_each(pages: Mapping[str, Path], made: Callable[[str], Mapping[str, str]]) -> None:
+    """Write pages with the tables of their languages, where these are made one by one."""
+    for language, page in pages.items():
+        write([page], made(language))
 
 
 if __name__ == "__main__":

@@ -5,10 +5,12 @@ marked `one_case` the first. `pytest -m slow` tries others, a few that are drawn
 tests, `slow(one_in=3)`, a third; with ``TWISTWRENCH_DRAW=all`` all of them. What is named on the command line is run.
 """
 
+import importlib
 import os
 import random
 import sys
 from collections import defaultdict
+from pathlib import Path
 
 import pytest
 from hypothesis import Phase, settings
@@ -28,6 +30,13 @@ settings.register_profile(
 settings.load_profile("twistwrench")
 
 os.environ.setdefault(DRAWN_BY, str(random.randrange(1000)))  # before pytest-xdist starts its processes, which need it
+
+
+@pytest.fixture
+def benchmark_file(monkeypatch):
+    """Return what imports a file of benchmarks/ by its name."""
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[1] / "benchmarks"))
+    return importlib.import_module
 
 
 @pytest.fixture

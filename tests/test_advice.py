@@ -1,8 +1,6 @@
 """`tw.advise` with a tolerance: the cheapest that keeps it, what it says where nothing does, its promise."""
 
-import importlib
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -122,12 +120,11 @@ def test_every_use_takes_a_tolerance_in_its_unit():
         assert found.best is not None
 
 
-def test_the_promises_of_the_page_are_those_of_the_benchmark_and_held_in_95_percent(monkeypatch):
+def test_the_promises_of_the_page_are_those_of_the_benchmark_and_held_in_95_percent(benchmark_file):
     """Five robots, five uses, two tolerances each: in no line fewer of the new states, in all together 98 %."""
     pytest.importorskip("mpmath", reason="mpmath is not installed: the benchmark is not read")
     pytest.importorskip("scipy", reason="SciPy is not installed: the benchmark is not read")
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[1] / "benchmarks"))
-    benchmark, tables = (importlib.import_module(name) for name in ("advice", "tables"))
+    benchmark, tables = map(benchmark_file, ("advice", "tables"))
     found = json.loads(benchmark.RESULTS.read_text(encoding="utf-8"))
     asked = [(use, within) for use, tolerances, _ in benchmark.QUESTIONS for within in tolerances]
     assert set(found) == {f"{robot} | {use} | {within}" for robot in benchmark.ROBOTS for use, within in asked}

@@ -1,8 +1,6 @@
 """The trials of scenes: the tables of both pages are those of the results, and a run finds them again."""
 
-import importlib
 import json
-from pathlib import Path
 
 import pytest
 
@@ -10,16 +8,15 @@ from ..pages import page
 
 
 @pytest.fixture
-def maker(monkeypatch):
+def maker(benchmark_file):
     """benchmarks/scene_trials.py, which makes the pages' table."""
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
-    return importlib.import_module("scene_trials")
+    return benchmark_file("scene_trials")
 
 
 @pytest.mark.parametrize("language", ["", ".zh-CN"])
-def test_the_table_of_the_page_is_that_of_the_results(maker, language):
+def test_the_table_of_the_page_is_that_of_the_results(maker, benchmark_file, language):
     text = page("scenes", language).read_text(encoding="utf-8")
-    assert maker.fill(text, maker.tables(language)) == text
+    assert benchmark_file("tables").fill(text, maker.tables(language)) == text
     assert text.count("| `") >= 26
     assert set(maker.results()) == {trial.function for trial in maker.TRIALS if trial.function}
 
@@ -37,16 +34,15 @@ def test_each_trial_is_as_near_as_the_table_says(maker):
 
 
 @pytest.fixture
-def chooser(monkeypatch):
+def chooser(benchmark_file):
     """benchmarks/scenes_to_choose.py, which makes the table of what `cheapest` promises."""
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
-    return importlib.import_module("scenes_to_choose")
+    return benchmark_file("scenes_to_choose")
 
 
 @pytest.mark.parametrize("language", ["", ".zh-CN"])
-def test_the_choices_of_the_page_are_those_of_the_results(chooser, language):
+def test_the_choices_of_the_page_are_those_of_the_results(chooser, benchmark_file, language):
     text = page("scenes", language).read_text(encoding="utf-8")
-    assert chooser.fill(text, chooser.tables(language)) == text
+    assert benchmark_file("tables").fill(text, chooser.tables(language)) == text
     found = json.loads(chooser.RESULTS.read_text(encoding="utf-8"))
     assert len(found) == len(chooser.CASES) == 12
     assert [name for name, rows in found.items() if not rows[0]["holds"]] == ["parallelogram_with_one_motor"]

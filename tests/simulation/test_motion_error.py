@@ -1,8 +1,6 @@
 """`tw.motion_error` against closed forms, invariants, SciPy's DOP853; `cheapest_steps` by its promise."""
 
-import importlib
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -102,17 +100,16 @@ def test_where_the_motion_outruns_doubles_it_is_said_for_how_long_they_do(monkey
 
 
 @pytest.fixture
-def benchmark(monkeypatch):
+def benchmark(benchmark_file):
     """benchmarks/motion_errors.py, which integrates motions in 50 digits."""
     pytest.importorskip("mpmath", reason="mpmath is not installed: there is no truth to hold anything against")
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
-    return importlib.import_module("motion_errors")
+    return benchmark_file("motion_errors")
 
 
 @pytest.mark.parametrize("language", ["", ".zh-CN"])
-def test_the_table_of_eight_motions_is_that_of_the_results(benchmark, language):
+def test_the_table_of_eight_motions_is_that_of_the_results(benchmark, benchmark_file, language):
     text = page("simulation", language).read_text(encoding="utf-8")
-    assert benchmark.fill(text, benchmark.tables(language)) == text
+    assert benchmark_file("tables").fill(text, benchmark.tables(language)) == text
     assert set(json.loads(benchmark.RESULTS.read_text(encoding="utf-8"))) == set(benchmark.MOTIONS)
     assert len(benchmark.MOTIONS) == 8
 

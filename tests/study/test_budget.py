@@ -1,10 +1,8 @@
 """`python -m benchmarks.study budget`: what a motion needs, the effect of each source of error, docs/budget.md."""
 
-import importlib
 import json
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -24,10 +22,9 @@ TROT = tw.motions.trot(GO2, samples=60)
 
 
 @pytest.fixture
-def maker(monkeypatch):
+def maker(benchmark_file):
     """benchmarks/budget.py, which makes the page's table."""
-    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "benchmarks"))
-    return importlib.import_module("budget")
+    return benchmark_file("budget")
 
 
 # ---------------------------------------------------------------- what a motion needs
