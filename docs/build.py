@@ -18,7 +18,6 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Sequence
-from importlib.metadata import files
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -42,7 +41,6 @@ from website import (
 )
 
 OUT = pages.ROOT / "build" / "site"
-MATHJAX = "tex-svg-full.js"
 
 
 def stage(languages: Sequence[str], draft: bool, done: Callable[[str], None]) -> None:
@@ -64,9 +62,7 @@ def stage(languages: Sequence[str], draft: bool, done: Callable[[str], None]) ->
         beside.write_algorithms(tree, language)
         hands.write_hands(tree, language)
         pencil.write_pencil(tree, language)
-    mathjax = next(f for f in files("sphinx-mathjax-offline") or [] if f.name == MATHJAX)
-    target = OUT / "static" / "mathjax" / MATHJAX
-    pages.write(target, mathjax.read_text(encoding="utf-8"))
+    pages.write(OUT / "static" / "mathjax" / slides.MATHJAX, slides.mathjax())
     for language, tree in trees.items():
         if pages.replace(OUT / "pages" / language, tree):  # a page is gone, and what was built from it goes too
             shutil.rmtree(OUT / "doctrees" / language, ignore_errors=True)

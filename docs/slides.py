@@ -100,14 +100,15 @@ def page(path: Path, language: str, script: str = "") -> str:
     title = notebook.cells[0].source.splitlines()[0].removeprefix("# ")
     parts = {"lang": LANGUAGES[language], "title": escape(title), "slides": "\n".join(slides(notebook))}
     parts["highlight"] = HtmlFormatter().get_style_defs(".highlight")
-    parts["mathjax"] = f'<script src="{script}"></script>' if script else f"<script>{mathjax()}</script>"
+    inside = "" if script else mathjax().replace("</script", "<\\/script")
+    parts["mathjax"] = f'<script src="{script}"></script>' if script else f"<script>{inside}</script>"
     return TEMPLATE.read_text(encoding="utf-8").format(**parts)
 
 
 def mathjax() -> str:
-    """Return the text of MathJax, to stand in a page."""
+    """Return the text of MathJax."""
     own = next(file for file in files("sphinx-mathjax-offline") or [] if file.name == MATHJAX)
-    return own.read_text(encoding="utf-8").replace("</script", "<\\/script")
+    return own.read_text(encoding="utf-8")
 
 
 def write_slides(html: Path, languages: Sequence[str]) -> None:
