@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import string
 import tomllib
 from collections.abc import Mapping
@@ -20,7 +21,7 @@ from misstep.text import Language, Text, default_language, wrapped
 
 from ..errors import check_known
 
-__all__ = ["SECTIONS", "Asked", "Question", "ask", "questions"]
+__all__ = ["SECTIONS", "Asked", "Question", "ask", "questions", "written_unit"]
 
 SECTIONS = tuple(f"49.{k}" for k in range(1, 12))
 QUESTIONS = f"{__package__}.questions"
@@ -160,7 +161,7 @@ class Asked:
     @property
     def _unit(self) -> str:
         """The unit as it is written in the language."""
-        return self.question.unit.replace("N m", "N·m") if self.language == "zh" else self.question.unit
+        return written_unit(self.question.unit, self.language)
 
     def _shown(self, answer: Any) -> str:
         """Return an answer as it is written: a choice with its letter, a number with its unit."""
@@ -221,6 +222,11 @@ class Asked:
             said = f"{escape(self._say('right', truth=self._shown(name)))} {why}"
             parts.append(_folded(escape(self._shown(name)), said if guessed.right else escape(guessed._remark())))
         return "".join(parts)
+
+
+def written_unit(unit: str, language: Language) -> str:
+    """Return a unit as it is written in a language: in Chinese N·m and kg·m²."""
+    return re.sub(r"(?<=[Ng]) m(?![a-z])", "·m", unit) if language == "zh" else unit
 
 
 def _folded(head: str, body: str) -> str:

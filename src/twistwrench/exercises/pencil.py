@@ -13,6 +13,7 @@ from typing import Any
 from misstep.text import Language, Text
 
 from ..errors import check_known
+from .asking import written_unit
 from .chapter import COURSE
 
 __all__ = ["SECTIONS", "PencilQuestion", "gift", "pencil_questions", "sheet"]
@@ -74,7 +75,7 @@ class PencilQuestion:
 
     def unit_in(self, language: Language) -> str:
         """Return the unit as it is written in a language."""
-        return re.sub(r"(?<=[Ng]) m(?![a-z])", "·m", self.unit) if language == "zh" else self.unit
+        return written_unit(self.unit, language)
 
     def answer(self, language: Language) -> str:
         """Return the answer in one language, a choice with its letter."""
